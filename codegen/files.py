@@ -12,12 +12,12 @@ from loiter.arrays import partition  # noqa: F401
 from loiter.guidance.entry import law_step
 from loiter.guidance.estimation import identification_step
 from loiter.guidance.estimation.vehicle import fly_as_declared
-from loiter.kernel import adjoint, entry, motion, rounding
+from loiter.kernel import adjoint, entry, motion, rounding, words
 from loiter.kernel.still_air import extremals, switching_curves, synthesis, value_gradient
-from loiter.kernel.wind import hold, slots, wind_search
+from loiter.kernel.wind import held, hold, paths, slots, wind_search
 from loiter.version import __version__
 from loiter.web import problems  # noqa: F401
-from loiter.web.answers import exports, plans, race  # noqa: F401
+from loiter.web.answers import exports, fences, plans, race  # noqa: F401
 
 FOLDER = ROOT / "src" / "loiter" / "native"
 PAGE = ROOT / "src" / "loiter" / "web" / "static" / "kernel"
@@ -70,6 +70,7 @@ PLANNING = (
     synthesis.optima,
     synthesis.ranked,
     synthesis.least_time,
+    synthesis.side_or_near,
     entry.first_control,
     entry.miss,
     entry.is_tie_in_wind,
@@ -84,6 +85,11 @@ PLANNING = (
     wind_search.fastest,
     wind_search.optima,
     wind_search.ranked,
+    wind_search.entry_of,
+    held.time_held,
+    paths.first_path_of,
+    words.controls,
+    words.set_of,
 )
 
 # In the law the kernel's functions stand in for machine code that Python calls.
@@ -108,8 +114,8 @@ def law() -> str:
 
 
 def law_module() -> str:
-    """What `law` has, as JavaScript; it belongs to no package. Its tangents and exponentials are the browser's."""
-    functions = PORTABLE.functions | {name: f"Math.{name}" for name in ("tan", "atan", "exp", "log")}
+    """What `law` has, as JavaScript; it belongs to no package. Its exponentials are the browser's."""
+    functions = PORTABLE.functions | {name: f"Math.{name}" for name in ("exp", "log")}
     arithmetic = PORTABLE._replace(functions=functions, replaced=PORTABLE.replaced | LAW_REPLACED)
     return Module("law.js", arithmetic, (*STEPS, identification_step.first_identification)).text()
 
@@ -121,6 +127,12 @@ ABOVE_KERNEL = (
     ("loiter.web.answers.plans", "certificate"),
     ("loiter.web.answers.tracks", "lap"),
     ("loiter.web.answers.race", "race"),
+    ("loiter.web.answers.fences", "fence_check"),
+    ("loiter.web.answers.fences", "clear_plan"),
+    ("loiter.web.answers.fences", "clear_maneuver"),
+    ("loiter.fences.model", "CircleZone"),
+    ("loiter.fences.model", "PolygonZone"),
+    ("loiter.fences.fence", "Fence"),
     ("loiter.web.answers.exports", "_check_points"),
     ("loiter.io.files", "FILE_FORMATS"),
     ("loiter.io.files", "SaveArguments"),
@@ -157,12 +169,20 @@ ELSEWHERE = {
     ("loiter.errors", "_refuse"): "arrays.refuse",
     ("loiter.geo.frame", "to_plane"): "geodesic.to_plane",
     ("loiter.geo.frame", "from_plane"): "geodesic.from_plane",
-    ("loiter.arrays.reduction", "reduce"): "arrays.reduce",
+    ("loiter.arrays.reduction", "reduce"): "arrays.reducer(heading_vector)",
     ("loiter.planning.flight", "_fly_arrays"): "arrays.fly_arrays",
     ("loiter.compiled.wind_solver", "fastest"): "kernel.wind_search_fastest",
     ("loiter.compiled.wind_solver", "ranked"): "kernel.wind_search_ranked",
     ("loiter.compiled.wind_solver", "optima"): "kernel.wind_search_optima",
     ("loiter.compiled.still_air_solver", "optimum"): "kernel.optimum",
+    ("loiter.arrays.still_air", "min_time"): "arrays.min_time",
+    ("loiter.arrays.wind", "min_time_in_wind"): "arrays.min_time_in_wind",
+    ("loiter.kernel.motion", "reduce"): "arrays.reduce_states",
+    # The page has no string pulled taut, which needs shapely: its bound is the fastest entry.
+    ("loiter.fences.taut", "least_length_m"): "arrays.no_length",
+    ("loiter.planning.leg", "LegPlan"): "arrays.Absent",
+    ("loiter.fences.model", "_invalidity"): "shapes.invalidity",
+    ("loiter.fences.model", "_gap_m"): "shapes.gap_m",
     # The page plans without slots.
     ("loiter.planning.solve", "arrivals"): "arrays.refuse",
     ("loiter.kernel.words", "encode"): "arrays.encode",
@@ -175,7 +195,10 @@ import * as errors from "./errors.js";
 import * as geodesic from "./geodesic.js";
 import * as kernel from "./kernel.js";
 import * as arrays from "./arrays.js";
+import * as shapes from "./shapes.js";
+import {{ np }} from "./numpy.js";
 import {{ {names} }} from "./python.js";
+import {{ shapely }} from "./shapes.js";
 
 """
 
@@ -189,6 +212,9 @@ def library_module(kernel: Module) -> str:
     used = set(re.findall(r"\b\w+\b", text)) & known
     if missing := library.builtins - known:
         raise NotTranslated(f"python.js has no {', '.join(sorted(missing))}")
+    numpy = re.findall(r"\b\w+\b", (PAGE / "numpy.js").read_text("utf-8").partition("export const np = {")[2])
+    if missing := set(re.findall(r"\bnp\.(\w+)", text)) - {*numpy, "intp"}:
+        raise NotTranslated(f"numpy.js has no {', '.join(sorted(missing))}")
     return LIBRARY_HEAD.format(version=__version__, names=", ".join(sorted(used))) + text
 
 

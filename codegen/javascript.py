@@ -31,7 +31,8 @@ from loiter.compiled import branchless
 # `compiled/branchless.py` stand in for them; the cube root decides only which maneuvers count as one.
 EXACT = {name: f"Math.{name}" for name in ("sqrt", "floor", "ceil", "cbrt")} | {"fabs": "Math.abs", "fmod": "fmod"}
 PORTABLE = DOUBLE._replace(
-    functions=EXACT, replaced={name: getattr(branchless, name) for name in ("atan2", "sin", "cos", "acos")}
+    functions=EXACT,
+    replaced={name: getattr(branchless, name) for name in ("atan2", "sin", "cos", "tan", "acos", "atan")},
 )
 
 HELPERS = Path(__file__).with_name("helpers.js").read_text("utf-8")

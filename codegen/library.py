@@ -36,14 +36,31 @@ OPERATORS: dict[type, str] = {
     ast.Eq: "eq", ast.NotEq: "ne", ast.Lt: "lt", ast.LtE: "le", ast.Gt: "gt", ast.GtE: "ge", ast.In: "has",
 }  # fmt: skip
 
-# Names that only JavaScript reserves.
-RESERVED = {"arguments", "case", "const", "default", "delete", "function", "in", "let", "new", "switch", "this", "var"}
+# Names that only JavaScript or `python.js` reserves.
+RESERVED = {
+    "arguments",
+    "case",
+    "const",
+    "default",
+    "delete",
+    "function",
+    "in",
+    "let",
+    "new",
+    "rows",
+    "switch",
+    "this",
+    "var",
+}
 
 # Methods of Python's own values that `python.js` has as functions.
 METHODS = {
     *("join", "removesuffix", "removeprefix", "capitalize", "lower", "encode", "replace"),
     *("items", "values", "get", "append", "pop", "tolist", "round", "any", "copy", "conjugate", "index"),
 }
+
+# Modules of which JavaScript has a part that functions import.
+MODULES = {"np", "shapely"}
 
 # What JavaScript has elsewhere: by module and name, the expression that stands for it.
 Replaced = dict[tuple[str, str], str]
@@ -154,16 +171,23 @@ class Library:
         lines = [f"constructor({', '.join(given)}) {{", "super();"]
         lines += [f"this.{name} = {name if is_given else 'undefined'};" for name, is_given in fields]
         lines += ["this.__post_init__();" * hasattr(cls, "__post_init__"), "}"]
-        for one in node.body:
-            if isinstance(one, ast.FunctionDef) and not self._is_unused(one, cls):
-                lines.append(writer.method(one))
+        lines += self._methods(node, cls, writer)
         names = ", ".join(f'"{name}"' for name, is_given in fields if is_given)
         base = "Values" if is_dataclass(cls) else "Tuple"
-        return (
-            f"const {title} = struct(class {title} extends {base} {{\n"
-            + "\n".join(lines)
-            + f"\n}}, [{names}], {title!r});"
-        )
+        return f"const {title} = struct(class extends {base} {{\n" + "\n".join(lines) + f"\n}}, [{names}], {title!r});"
+
+    def _methods(self, node: ast.ClassDef, cls: type, writer: Writer) -> list[str]:
+        """The methods of a class, and those of its bases that it does not replace."""
+        own = [one for one in node.body if isinstance(one, ast.FunctionDef)]
+        lines = [writer.method(one) for one in own if not self._is_unused(one, cls)]
+        for base in cls.__mro__[1:]:
+            if is_dataclass(base) and base.__module__.startswith("loiter."):
+                module = sys.modules[base.__module__]
+                others, known = classes(module)[base.__name__].body, {one.name for one in own}
+                inherited = [one for one in others if isinstance(one, ast.FunctionDef) and one.name not in known]
+                lines += [Writer(self, module).method(one) for one in inherited if not self._is_unused(one, cls)]
+                own += inherited
+        return lines
 
     def _plain_class(self, title: str, node: ast.ClassDef, cls: type, writer: Writer) -> str:
         """A class with a constructor, and with a base that is translated before it if the base is ours."""
@@ -180,7 +204,7 @@ class Library:
             for one in node.body
             if isinstance(one, ast.FunctionDef)
         ]
-        return f"const {title} = struct(class {title} extends {parent} {{\n" + "\n".join(lines) + "\n}, []);"
+        return f"const {title} = struct(class extends {parent} {{\n" + "\n".join(lines) + "\n}, []);"
 
     def _is_unused(self, node: ast.FunctionDef, cls: type) -> bool:
         return node.name in UNUSED.get(cls.__name__, ()) or (
@@ -232,6 +256,8 @@ class Writer:
         body = self._body(node, "this")
         if "cached_property" in decorators:
             return f'get {node.name}() {{ return cached(this, "{node.name}", () => {{\n{body}\n}}); }}'
+        if "classmethod" in decorators:
+            return f"static {safe(node.name)}({self._parameters(node.args)}) {{\n{self._body(node)}\n}}"
         get = "get " if "property" in decorators else "*" if _yields(node) else ""
         name = {"__str__": "toString"}.get(node.name, safe(node.name))
         return f"{get}{name}({self._parameters(node.args, skip=1)}) {{\n{body}\n}}"
@@ -310,6 +336,11 @@ class Writer:
 
     def _assignment(self, target: ast.expr, value: str) -> str:
         match target:
+            case ast.Tuple(elts=targets) if any(isinstance(one, ast.Subscript) for one in targets):
+                self.temporaries += 1
+                name = f"unpacked{self.temporaries}"
+                parts = [self._assignment(one, f"{name}[{i}]") for i, one in enumerate(targets)]
+                return "\n".join([f"const {name} = iter({value});", *parts])
             case ast.Tuple(elts=targets) | ast.List(elts=targets):
                 return f"{self._pattern(targets)} = {self._unpacked(targets, value)};"
             case ast.Subscript(value=owner, slice=key):
@@ -425,8 +456,8 @@ class Writer:
         return repr(node.value)
 
     def _Name(self, node: ast.Name) -> str:
-        if node.id == "np":
-            return "np"
+        if node.id in MODULES:
+            return node.id
         if any(node.id in names for names in self.local):
             return safe(node.id)
         return self._global(node.id, node)
@@ -467,6 +498,8 @@ class Writer:
             "replace": "replace",
             "asdict": "asdict",
             "escape": "escape",
+            "heappop": "heappop",
+            "heappush": "heappush",
         }[title]
 
     def _static(self, node: ast.expr) -> Any:
@@ -536,6 +569,8 @@ class Writer:
     def _UnaryOp(self, node: ast.UnaryOp) -> str:
         if isinstance(node.op, ast.Not):
             return f"!{self.condition(node.operand)}"
+        if isinstance(node.op, ast.Invert):
+            return f"invert({self.expression(node.operand)})"
         if isinstance(node.operand, ast.Constant):
             return f"-{self.expression(node.operand)}"
         return f"neg({self.expression(node.operand)})"
@@ -582,6 +617,11 @@ class Writer:
             ]
             return f"sliced({owner}, {', '.join(ends)})"
         return f"item({owner}, {self.expression(node.slice)})"
+
+    def _Slice(self, node: ast.Slice) -> str:
+        """A slice of one axis of several."""
+        ends = (self.expression(one) if one else "null" for one in (node.lower, node.upper))
+        return f"slice({', '.join(ends)})"
 
     def _ListComp(self, node: ast.ListComp | ast.GeneratorExp) -> str:
         return self._of_each(node.generators, lambda: self.expression(node.elt))
@@ -649,6 +689,9 @@ class Writer:
             ):
                 others = ", ".join(map(self._element, node.args[1:]))
                 return f"map((...given) => {self.expression(method)}(...given), {others})"
+            case ast.Name(id="isinstance"):
+                tested = [node.args[0], *_alternatives(node.args[1])]
+                return f"isinstance({', '.join(map(self.expression, tested))})"
             case ast.Name(id="getattr"):
                 owner, name = map(self.expression, node.args)
                 return f"{owner}[{name}]"
@@ -677,7 +720,7 @@ class Writer:
         if owner == "self" and node.keywords and self.cls is not None:
             # Its own methods take their arguments in order.
             return f"self.{safe(name)}({', '.join(self._bound(node, getattr(self.cls, name), skip=1))})"
-        if name in METHODS:
+        if name in METHODS and owner not in MODULES:
             return f"{name}_({', '.join([owner, *map(self._element, node.args)])})"
         if not node.keywords:
             return f"{owner}.{safe(name)}({', '.join(map(self._element, node.args))})"
@@ -746,6 +789,14 @@ def _assigned(body: Sequence[ast.AST]) -> Iterator[str]:
             yield node.id
         else:
             yield from _assigned(list(ast.iter_child_nodes(node)))
+
+
+def _alternatives(node: ast.expr) -> list[ast.expr]:
+    """The classes of a union: `A | B`."""
+    match node:
+        case ast.BinOp(left=left, op=ast.BitOr(), right=right):
+            return [*_alternatives(left), *_alternatives(right)]
+    return [node]
 
 
 def _is_integer(node: ast.expr) -> bool:

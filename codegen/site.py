@@ -19,7 +19,7 @@ ESBUILD = Path(sys.prefix) / "node" / "node_modules" / "esbuild" / "bin" / "esbu
 # Nothing leaves the machine: tiles, once they are switched on, are loaded by the document of the map alone.
 POLICY = (
     "default-src 'none'; script-src {script}; style-src {style}; img-src 'self' data: blob:; connect-src 'self'; "
-    "worker-src 'self'; frame-src 'self'; base-uri 'none'; form-action 'none'"
+    "worker-src 'self' blob:; frame-src 'self'; base-uri 'none'; form-action 'none'"
 )
 MAP_POLICY = "default-src 'none'; script-src {script}; style-src {style}; img-src http: https:; base-uri 'none'"
 

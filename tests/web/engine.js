@@ -1,7 +1,8 @@
-// Answers of the page's engine to scenes: reads [[scene, formats], ...] as JSON, writes a list of answers.
+// Answers of the page's engine to scenes: reads [[scene, formats, fence], ...] as JSON, writes a list of answers.
+// With a fence its check is answered too and, where the plan is not clear and `fence.search` is true, the clear entry.
 import { readFileSync } from "node:fs";
 
-const { certificate, file, lap, plan, refusal } = await import(process.argv[2]);
+const { certificate, clearEntry, fenceCheck, file, lap, plan, refusal } = await import(process.argv[2]);
 
 function answer(compute) {
   try {
@@ -10,7 +11,12 @@ function answer(compute) {
     return { refusal: refusal(error) };
   }
 }
-const answers = JSON.parse(readFileSync(0, "utf-8")).map(([scene, formats]) => ({
+function ofFence(scene, isSearched) {
+  const check = answer(() => fenceCheck(scene));
+  return isSearched && check.clear === false ? { check, clear: answer(() => clearEntry(scene)) } : { check };
+}
+const answers = JSON.parse(readFileSync(0, "utf-8")).map(([scene, formats, fence]) => ({
+  ...(fence ? ofFence({ ...scene, fence }, fence.search) : {}),
   plan: answer(() => plan(scene)),
   certificate: answer(() => certificate(scene)),
   lap: answer(() => lap(scene)),

@@ -10,16 +10,17 @@ import re
 import subprocess
 import sys
 from collections import Counter
-from math import isclose
+from math import cos, hypot, isclose, sin, tau
 from pathlib import Path
 
 from benchmarks.browsing import NODE
 
 from loiter.errors import LoiterError, RadiusTooSmall
+from loiter.fences import CircleZone, Fence, PolygonZone
 from loiter.planning.solve import all_fastest
 from loiter.plot.files import PICTURE_FORMATS
 from loiter.web import models
-from loiter.web.answers import exports, plans
+from loiter.web.answers import exports, fences, plans
 from loiter.web.answers.tracks import lap
 from loiter.web.problems import PROBLEM_TYPES, sentence_and_path
 
@@ -31,6 +32,9 @@ FORMATS = [name for name, known in exports.FORMATS.items() if known not in PICTU
 # joining is known to the square root of its rounding: this share of the coordinates.
 CLOSE, FLAT = 1e-9, 1e-6
 NUMBER = re.compile(r"-?\d+\.?\d*(?:[eE][-+]?\d+)?")
+
+# In the first scenes of each so many, in still air and in wind, a clear entry is searched for, which takes a second.
+SEARCHED, OF_SCENES = 2, 12
 
 LIMITS = {"max_bank_deg": 35.0, "min_turn_radius_m": 45.0, "max_turn_rate_deg_s": 20.0}
 
@@ -96,18 +100,67 @@ def _scene(chance, kind):
     return scene
 
 
-def of_the_page(scenes):
+def fence_of(chance, scene, *, search):
+    """A fence for a scene, as the page has it; now and then one that the library refuses. None for half of them."""
+    if chance.random() < 0.5:
+        return None
+    orbit, pose = scene["orbit"], scene["pose"]
+    reach = 2.0 * abs(orbit["radius_m"]) + hypot(pose["east_m"], pose["north_m"])
+    zones = [_zone(chance, f"zone {i + 1}", pose, abs(orbit["radius_m"]), reach) for i in range(chance.randint(1, 3))]
+    if chance.random() < 0.3:
+        corners = [[-1.5 * reach, -1.5 * reach], [1.5 * reach, -1.4 * reach], [reach, 1.3 * reach], [-reach, reach]]
+        zones.append({"name": "field", "corners": corners, "inclusion": True})
+    return {"zones": zones, "margin_m": chance.choice([None, 0.0, 12.5]), "search": search}
+
+
+def _zone(chance, name, pose, radius_m, reach):
+    """A circle or a polygon to stay out of, half of them about the straight line to the circle."""
+    share = chance.choice([0.0, chance.uniform(0.4, 0.8)])
+    spread, size = reach * chance.uniform(0.1, 1.0 - share), reach * chance.uniform(0.02, 0.2)
+    east = share * pose["east_m"] + chance.uniform(-spread, spread)
+    north = share * pose["north_m"] + chance.uniform(-spread, spread)
+    apart, least = hypot(east, north), radius_m + size + chance.uniform(20.0, 60.0)
+    if apart < least and chance.random() < 0.8:
+        # Off the circle, which otherwise is blocked itself.
+        east, north = east * least / apart, north * least / apart
+    if chance.random() < 0.5:
+        return {"name": name, "east_m": east, "north_m": north, "radius_m": size, "inclusion": False}
+    angles = sorted(chance.uniform(0.0, tau) for _ in range(chance.randint(3, 6)))
+    corners = [[east + size * cos(a) * chance.uniform(0.4, 1.0), north + size * sin(a)] for a in angles]
+    return {"name": name, "corners": corners, "inclusion": False}
+
+
+def fence_values(fence):
+    """The library's fence and the margin of a fence of the page."""
+    zones = [
+        PolygonZone(zone["name"], [tuple(corner) for corner in zone["corners"]], zone["inclusion"])
+        if "corners" in zone
+        else CircleZone(**zone)
+        for zone in fence["zones"]
+    ]
+    return Fence(tuple(zones)), fence["margin_m"]
+
+
+def of_the_page(scenes, fences=None):
     """The answers of the page's engine, in Node."""
-    asked = json.dumps([[scene, FORMATS] for scene in scenes])
+    asked = json.dumps(
+        [[scene, FORMATS, fence] for scene, fence in zip(scenes, fences or [None] * len(scenes), strict=True)]
+    )
     done = subprocess.run([NODE, ASKED, ENGINE], input=asked, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     return json.loads(done.stdout)
 
 
-def of_the_library(scene):
-    """The answers of the service to a scene, without HTTP."""
+def of_the_library(scene, fence=None):
+    """The answers of the service to a scene, without HTTP, and those to a fence."""
     options = models.ExportOptions.model_validate(scene)
-    return {
+    of_fence = {}
+    if fence:
+        check = _answered(lambda: fences.fence_check(options.placed(), *fence_values(fence)))
+        of_fence = {"check": check}
+        if fence["search"] and check.get("clear") is False:
+            of_fence["clear"] = _answered(lambda: fences.clear_plan(options.placed(), *fence_values(fence)))
+    return of_fence | {
         "plan": _answered(lambda: plans.plan(options.placed())),
         "certificate": _answered(lambda: plans.certificate(options.placed())),
         "lap": _answered(lambda: lap(all_fastest(options.placed().problem)[0])),
@@ -167,9 +220,9 @@ def verdicts(proof):
     }
 
 
-def differences(scene, page):
+def differences(scene, page, fence=None):
     """All differences of an answer of the page from the library's, by name."""
-    library = of_the_library(scene)
+    library = of_the_library(scene, fence)
     found = Counter()
     a, b = page["plan"], library["plan"]
     size = max(abs(scene["pose"]["east_m"]), abs(scene["pose"]["north_m"]), scene["orbit"]["radius_m"], 1.0)
@@ -188,9 +241,36 @@ def differences(scene, page):
         found["certificate: " + what[:90]] += 1
     if what := difference(page["lap"], library["lap"], FLAT, size):
         found["lap: " + what[:60]] += 1
+    if fence:
+        found += fence_differences(page, library, size)
     for name in FORMATS:
         if what := difference_of_files(page["files"][name], library["files"][name], size):
             found[f"{name}: {what[:80]}"] += 1
+    return found
+
+
+def fence_differences(page, library, size):
+    """How the answers to a fence differ, by name. The string pulled taut, which the page has not, is left out."""
+    found, a, b = Counter(), page["check"], library["check"]
+    if "refusal" in a or "refusal" in b:
+        sentences = [str(one.get("refusal", {}).get("sentence")) for one in (a, b)]
+        # Where an outline crosses itself is said for the first such place that each finds.
+        if len({sentence.partition(" at ")[0] for sentence in sentences}) > 1:
+            found[f"refusal of the fence: {sentences[0][:60]!r} instead of {sentences[1][:60]!r}"] += 1
+        return found
+    if a["clear"] and b["clear"]:
+        # The place of joining is one of the entry, and one of the hold before and after a round: they are as near.
+        for one in (a, b):
+            one["closest"] = {k: one["closest"][k] for k in ("zone", "clearance_m", "east_m", "north_m")}
+    found["plans that are clear" if b["clear"] else "plans that are blocked"] += 1
+    if what := difference(a, b, FLAT, size):
+        found["check: " + what[:90]] += 1
+    if "clear" in library:
+        entries = [one["clear"]["maneuver"] for one in (page, library)]
+        found["clear entries" if entries[1] else "no clear entry"] += 1
+        times = [None if one is None else one["duration_s"] for one in entries]
+        if what := difference(*times, 1e-6):
+            found[f"clear entry: {what}"] += 1
     return found
 
 
@@ -199,8 +279,11 @@ def main(count, first=0):
     found = Counter()
     for start in range(first, count, 200):
         scenes = drawn(min(200, count - start), seed=start)
-        for scene, page in zip(scenes, of_the_page(scenes), strict=True):
-            found += differences(scene, page)
+        chance = random.Random(start)
+        fences_drawn = [fence_of(chance, scene, search=i % OF_SCENES < SEARCHED) for i, scene in enumerate(scenes)]
+        answers = zip(scenes, of_the_page(scenes, fences_drawn), fences_drawn, strict=True)
+        for scene, page, fence in answers:
+            found += differences(scene, page, fence)
         print(f"{start + len(scenes)} scenes: {dict(found.most_common())}", flush=True)
 
 

@@ -1,4 +1,4 @@
-"""Pictures of the page for the documents: page.png, page-dark.png and page-phone.png in docs.
+"""Pictures of the page for the documents: page.png, page-dark.png, page-fence.png and page-phone.png in docs.
 
 Run: PYTHONPATH=src:tests:. python -m web.pictures
 """
@@ -22,6 +22,7 @@ class Picture(NamedTuple):
 PICTURES = {
     "page.png": Picture("Beside the circle", "620", {"viewport": browsing.DESK}),
     "page-dark.png": Picture("In wind", None, {"viewport": browsing.DESK, "color_scheme": "dark"}),
+    "page-fence.png": Picture("Round a fence", "450", {"viewport": browsing.DESK}),
     "page-phone.png": Picture("Far away", "450", browsing.PHONE),
 }
 

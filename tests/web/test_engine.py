@@ -1,13 +1,18 @@
 """The page's engine, in Node, beside the library: words, times, sentences and files of scenes of every kind."""
 
+import random
+from collections import Counter
+
 import numpy as np
 import pytest
 
 import loiter
 from loiter.web.answers.tracks import lap
-from web.engine import difference, difference_of_files, differences, drawn, of_the_page
+from web.engine import OF_SCENES, SEARCHED, difference, difference_of_files, differences, drawn, fence_of, of_the_page
 
 # Numbers with all their digits differ in the last ones, because the page's sine and arctangent are its own.
+# What both say of fences, and in how many scenes at least.
+SAME = {"plans that are clear": 20, "plans that are blocked": 20, "clear entries": 2, "no clear entry": 2}
 NAMED = {
     "a tie, in another order",
     *(f"{name}: digits" for name in ("csv", "geojson", "gpx", "kml", "plan", "waypoints")),
@@ -15,9 +20,14 @@ NAMED = {
 
 
 def test_the_engine_gives_the_answers_of_the_library():
-    scenes = drawn(240, seed=1)
-    for scene, page in zip(scenes, of_the_page(scenes), strict=True):
-        assert set(differences(scene, page)) <= NAMED, scene
+    scenes, chance = drawn(240, seed=1), random.Random(1)
+    fences = [fence_of(chance, scene, search=i % OF_SCENES < SEARCHED) for i, scene in enumerate(scenes)]
+    found = Counter()
+    for scene, page, fence in zip(scenes, of_the_page(scenes, fences), fences, strict=True):
+        alike = differences(scene, page, fence)
+        assert set(alike) <= NAMED | set(SAME), (scene, fence)
+        found += alike
+    assert all(found[name] >= least for name, least in SAME.items()), found
 
 
 @pytest.mark.parametrize("wind", [loiter.Wind(0.0, 0.0), loiter.Wind(8.0, 250.0)])

@@ -24,6 +24,13 @@ SCENE = {
     "wind": {"speed_m_s": 8, "from_deg": 250},
     "tolerance_m": 0.5,
     "origin": {"latitude_deg": 47, "longitude_deg": 8},
+    "fence": {
+        "zones": [
+            {"name": "a mast", "east_m": -150, "north_m": 90.5, "radius_m": 60, "inclusion": False},
+            {"name": "field", "corners": [[-600, -300], [300, -300], [300, 400]], "inclusion": True},
+        ],
+        "margin_m": 12.5,
+    },
 }
 ALTITUDE = {"altitude_m": 900, "altitude_reference": "home", "home_altitude_m": 700}
 LINKED = {"scene": SCENE, "units": "aviation", "altitude": ALTITUDE, "view": [1, 2, 300]}
@@ -37,6 +44,8 @@ KEYS = {
     "orbit-velocity": "3,4",
     "tolerance": "0.5",
     "origin": "47,8",
+    "zone": "field,in,-600,-300,300,-300,300,400",
+    "margin": "12.5",
     "altitude": "900",
     "altitude-reference": "home",
     "home-altitude": "700",
@@ -57,6 +66,7 @@ def test_a_link_has_these_keys():
     link = run(f"toLink({json.dumps(LINKED)})")
     assert link.startswith("#")
     assert dict(parse_qsl(link.removeprefix("#"))) == KEYS
+    assert ("zone", "a mast,out,-150,90.5,60") in parse_qsl(link.removeprefix("#"))
 
 
 def test_a_link_is_read_back_whole():

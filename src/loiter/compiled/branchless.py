@@ -53,6 +53,16 @@ def acos(x: float) -> float:
     return atan2(sqrt((1.0 - x) * (1.0 + x)), x)
 
 
+def atan(x: float) -> float:
+    """The angle in [-pi/2, pi/2] whose tangent is x."""
+    return atan2(x, 1.0)
+
+
+def tan(a: float) -> float:
+    """Tangent for |a| up to 2^19."""
+    return sin(a) / cos(a)
+
+
 def hypot(x: float, y: float) -> float:
     """Length of (x, y) where its square neither overflows nor underflows."""
     return sqrt(x * x + y * y)

@@ -55,8 +55,6 @@ class Pose2(NamedTuple):
 class Air(Protocol):
     """What a search needs to know of paths."""
 
-    gap_m: float
-
     def headings(self, contacts: Contacts) -> NDArray[float64]:
         """The headings with which contacts are passed."""
 
@@ -72,8 +70,6 @@ class Air(Protocol):
 
 class StillAir:
     """Still air: words, and arcs along curves that are wider than the tightest turn, all in closed form."""
-
-    gap_m = STILL_AIR_GAP_M
 
     def __init__(self, fence: Fence, problem: Problem, margin_m: float, curves: list[Curve]) -> None:
         self._fence, self._problem, self._margin_m, self._curves = fence, problem, margin_m, curves
@@ -198,8 +194,6 @@ def _clear_chords(fence: Fence, ends: list[Any], margin_m: float) -> NDArray[boo
 
 class SteadyWind:
     """Wind: the words of docs/wind.md, section 4, and trochoids as chords with a bound."""
-
-    gap_m = WIND_GAP_M
 
     def __init__(self, fence: Fence, problem: Problem, margin_m: float) -> None:
         self._fence, self._problem, self._margin_m = fence, problem, margin_m

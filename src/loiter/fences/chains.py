@@ -85,7 +85,7 @@ class ChainSearch:
 
     def chains(self, slack_m: float, most: int) -> list[Chain]:
         """The fastest chain, and others that touch otherwise and are longer by at most `slack_m`; up to `most`."""
-        found: dict[tuple[tuple[int, int], ...], Chain] = {}
+        found: dict[str, Chain] = {}
         self._length[-1] = 0.0
         self._expand(self._contacts.x.size)
         until = self._most_m
@@ -103,7 +103,9 @@ class ChainSearch:
                     if self._contacts.joined[to]:
                         chain = self._chain(expansion, i, to)
                         until = min(until, chain.length_m + slack_m)
-                        found.setdefault(_touched(chain), chain)
+                        touched = _touched(chain)
+                        if touched not in found:
+                            found[touched] = chain
                     else:
                         self._length[to] = self._length_of(expansion, i)
                         self._parent[to] = expansion, i
@@ -165,7 +167,7 @@ def _cost(words: Words) -> NDArray[float64]:
     return cost
 
 
-def _touched(chain: Chain) -> tuple[tuple[int, int], ...]:
-    """The curves that a chain touches, and the directions."""
+def _touched(chain: Chain) -> str:
+    """The curves that a chain touches, and the directions: "3,1 5,-1"."""
     touched = zip(chain.contacts.curve.tolist(), chain.contacts.way.tolist(), strict=True)
-    return tuple(dict.fromkeys(touched))
+    return " ".join(dict.fromkeys(f"{curve:d},{way:d}" for curve, way in touched))

@@ -6,7 +6,7 @@ from math import atan2, inf
 from typing import TYPE_CHECKING
 
 from loiter.errors import instance, not_negative
-from loiter.fences.airs import Air, Pose2, SteadyWind, StillAir
+from loiter.fences.airs import STILL_AIR_GAP_M, WIND_GAP_M, Air, Pose2, SteadyWind, StillAir
 from loiter.fences.chains import NO_PIECE_M, Chain, ChainSearch, Piece
 from loiter.fences.contacts import (
     Contacts,
@@ -99,7 +99,7 @@ class _Search:
     """The search for one problem: first over contacts all along the curves, then about those of the best chains."""
 
     def __init__(self, fence: Fence, problem: Problem, margin_m: float) -> None:
-        gap_m = StillAir.gap_m if problem.still else SteadyWind.gap_m
+        gap_m = STILL_AIR_GAP_M if problem.still else WIND_GAP_M
         self._fence, self._problem, self._margin_m = fence, problem, margin_m
         self._curves: list[Curve] = curves_of(fence, problem.orbit, margin_m + gap_m)
         self._touching = len(self._curves)

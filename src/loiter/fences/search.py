@@ -301,8 +301,8 @@ class Signed:
         """Bounds on parts; `upper` is attained at one of their ends."""
         import numpy as np
 
-        each = self._circle_bounds if isinstance(self._zone, CircleZone) else self._polygon_bounds
-        lower, at_a, at_b = each(chords)
+        is_circle = isinstance(self._zone, CircleZone)
+        lower, at_a, at_b = self._circle_bounds(chords) if is_circle else self._polygon_bounds(chords)
         upper = np.minimum(at_a, at_b) - chords.widen
         return Bounds(lower - chords.off - chords.widen, upper, np.where(at_b < at_a, parts.b, parts.a))
 

@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 146f9efc57ebe50227589bd5858f8c1fad609e5fdc2a0fb47b3c77a5d307207a
+ * SHA-256 of the source: 8dee36377a308f388d58dc632d35186fb27e02127f6661488549c6facd3a83b6
  */
 #ifndef LOITER_STILL_AIR_LOOPS_H
 #define LOITER_STILL_AIR_LOOPS_H

@@ -132,7 +132,9 @@ def sentence_and_path(error: LoiterError) -> tuple[str, str]:
     if not isinstance(error, InvalidArgument):
         return str(error), ""
     argument = error.argument
-    default = JsonField(argument.replace(" ", "."), argument.replace(" ", "/"))
+    # "zone 'mast'" is no path of the JSON.
+    is_named = "'" in argument
+    default = JsonField(argument, "") if is_named else JsonField(argument.replace(" ", "."), argument.replace(" ", "/"))
     name, path = JSON_FIELDS.get(argument, default)
     return f"{name} {error.problem}", path
 

@@ -1,6 +1,7 @@
 // @ts-check
 /** The page: wires store, requests and views together. */
 import { candidatesView } from "./answer/candidates.js";
+import { fenceVerdict } from "./answer/fence_verdict.js";
 import { factsView } from "./answer/facts.js";
 import { failureView, fitView, messageView } from "./answer/notices.js";
 import { skipLink, theoryView } from "./answer/theory.js";
@@ -41,6 +42,7 @@ latency.measure();
 tileLayer(store, actions);
 const fields = createFields(store, actions, camera);
 factsView(store);
+fenceVerdict(store);
 candidatesView(store, actions);
 verdictView(store);
 failureView(store, actions);

@@ -5,22 +5,25 @@
  * @typedef {import("../state/store.js").Store} Store
  * @typedef {import("../state/page_state.js").PageState} PageState
  * @typedef {import("../shared/types.js").Answer} Answer
+ * @typedef {import("../shared/types.js").Maneuver} Maneuver
  * @typedef {import("../shared/types.js").Scene} Scene
  */
 import { byId, fill, part } from "../shared/dom.js";
 import { DIRECTIONS, DIRECTION_ARROWS, splitAnswer, wordLabel } from "../shared/maneuver.js";
+import { flownOf } from "../state/page_state.js";
+import { fenceText } from "./fence_verdict.js";
 import { clockText, decimalsFor, fixed, quantityText, signedTimeDifference, timeText } from "../shared/units.js";
 
 const TIE_S = 1e-9; // durations closer than this count as ties
 
 /** @param {Store} store */
 export function factsView(store) {
-  store.watch((state) => [state.answer, state.failure, countdownOf(state)], drawHeadline);
-  store.watch(({ answer, units }) => [answer, units], drawFacts);
+  store.watch((state) => [state.answer, state.clear, state.failure, countdownOf(state)], drawHeadline);
+  store.watch(({ answer, clear, units }) => [answer, clear, units], drawFacts);
   // For screen readers, only when a drag pauses.
   store.watch(
-    ({ announced }) => [announced],
-    ({ announced }) => announced && (byId("spoken", HTMLElement).textContent = inMinutes(announced.instruction)),
+    ({ announced, clear }) => [announced, clear],
+    (state) => state.announced && (byId("spoken", HTMLElement).textContent = `${instructionOf(state)} ${fenceText(state)}`.trim()),
   );
 }
 
@@ -31,7 +34,9 @@ const DOING = { L: "Turn left", S: "Fly straight", R: "Turn right" };
  *
  * @param {PageState} state
  */
-function countdownOf({ answer, playback: { playing, time_s } }) {
+function countdownOf(state) {
+  const answer = flownOf(state);
+  const { playing, time_s } = state.playback;
   if (!answer || !(playing || time_s > 0)) return "";
   const hold = `hold ${DIRECTIONS[answer.turn]}`;
   const i = answer.segments.findIndex(({ start_s, duration_s }) => time_s < start_s + duration_s);
@@ -48,13 +53,19 @@ const inMinutes = (text) =>
 
 /** @param {PageState} state */
 function drawHeadline(state) {
-  const { answer, failure } = state;
+  const { answer, failure, clear, scene } = state;
   const headline = byId("instruction", HTMLElement);
-  const text = failure?.headline ?? (countdownOf(state) || inMinutes(answer?.instruction ?? ""));
+  const text = failure?.headline ?? (countdownOf(state) || instructionOf(state));
   // What to do, then how to hold, each on lines of its own; a unit stays beside its number.
   const [now, hold] = text.replaceAll(/(\d) (s|min)\b/g, "$1\u00a0$2").split(/(?<=\.) (?=Hold )/);
-  fill(headline, hold ? [now, " ", part("span", { class: "hold" }, [hold + (failure ? "" : tieText(answer))])] : [now]);
-  headline.classList.toggle("bad", failure !== null);
+  fill(headline, hold ? [now, " ", part("span", { class: "hold" }, [hold + (failure || scene.fence ? "" : tieText(answer))])] : [now]);
+  headline.classList.toggle("bad", failure !== null || (clear !== null && !clear.maneuver));
+}
+
+/** What the pilot does; where no clear entry is found, nothing. @param {PageState} state */
+function instructionOf({ answer, clear }) {
+  if (clear && !clear.maneuver) return "No clear entry is found.";
+  return inMinutes(clear?.instruction ?? answer?.instruction ?? "");
 }
 
 /** That the other direction takes the same time, if it does. @param {Answer | null} answer */
@@ -64,16 +75,18 @@ function tieText(answer) {
 }
 
 /** @param {PageState} state */
-function drawFacts({ answer, scene, units }) {
-  if (!answer) return;
+function drawFacts(state) {
+  const { answer, clear, scene, units } = state;
+  const flown = flownOf(state);
+  if (!answer || !flown) return;
   const { radius_m } = scene.orbit;
-  const path = quantityText(answer.length_m, "length", units, decimalsFor(radius_m, units));
-  setFact("time", timeText(answer.duration_s, scene));
+  const path = quantityText(flown.length_m, "length", units, decimalsFor(radius_m, units));
+  setFact("time", timeText(flown.duration_s, scene));
   setFact("path", path, answer.wind.speed_m_s > 0 ? "through the air" : "");
-  setFact("word", wordLabel(answer.word), DIRECTIONS[answer.turn]);
-  setFact("other", otherDirectionText(answer, scene));
-  setFact("optimal", String(answer.optimal), optimalText(answer));
-  setFact("bank-on-circle", bankText(answer));
+  setFact("word", wordLabel(flown.word), DIRECTIONS[flown.turn]);
+  setFact("other", clear?.maneuver ? "–" : otherDirectionText(answer, scene));
+  setFact("optimal", clear?.maneuver ? "–" : String(answer.optimal), clear?.maneuver ? "round a fence" : optimalText(answer));
+  setFact("bank-on-circle", bankText(flown));
 }
 
 /** @param {string} id @param {string | ReturnType<typeof part>} value @param {string} [note] */
@@ -94,7 +107,7 @@ function optimalText(answer) {
   return best.length > 1 ? best.map(({ word, turn }) => `${word} ${DIRECTION_ARROWS[turn]}`).join(", ") : "unique";
 }
 
-/** The bank angles of the hold. @param {Answer} answer */
+/** The bank angles of the hold. @param {Maneuver} maneuver */
 function bankText({ hold }) {
   const [least, most] = [fixed(hold.least_bank_deg, 1), fixed(hold.largest_bank_deg, 1)];
   return least === most ? `${most}°` : `${least} to ${most}°`;

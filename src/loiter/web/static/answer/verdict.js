@@ -8,13 +8,13 @@
  * @typedef {import("../shared/types.js").Scene} Scene
  */
 import { byId } from "../shared/dom.js";
-import { timeDifference } from "../shared/units.js";
+import { timeDifference, timeText } from "../shared/units.js";
 
 /** @param {Store} store */
 export function verdictView(store) {
   const verdict = byId("verdict", HTMLElement);
   store.watch(
-    ({ failure, faults, proof }) => [failure, faults.certificate, proof],
+    ({ failure, faults, proof, clear }) => [failure, faults.certificate, proof, clear],
     (state) => {
       const { kind, text } = verdictOf(state);
       // Until the next verdict arrives, the last one stays visible, drawn faintly.
@@ -26,8 +26,10 @@ export function verdictView(store) {
 }
 
 /** @param {PageState} state @returns {{kind: "unchecked" | "waiting" | "valid" | "invalid", text: string}} */
-function verdictOf({ failure, faults, proof, answer, scene }) {
+function verdictOf({ failure, faults, proof, answer, scene, clear }) {
   if (failure) return { kind: "unchecked", text: "–" };
+  if (clear?.maneuver)
+    return { kind: "unchecked", text: `Not checked of an entry round a fence. No clear entry takes less than ${timeText(clear.least_s ?? 0, scene)}.` };
   if (faults.certificate) return { kind: "unchecked", text: faults.certificate };
   if (!proof || !answer) return { kind: "waiting", text: "…" };
   const { certificate } = proof;

@@ -9,6 +9,7 @@
  * @typedef {import("../state/actions.js").Actions} Actions
  */
 import { withOrbit, withPose } from "../scene/scene.js";
+import { withZones } from "../scene/fence.js";
 import { byId } from "../shared/dom.js";
 import { REACH_M, toLocal } from "../shared/earth.js";
 import { headingOf } from "../shared/geometry.js";
@@ -25,24 +26,31 @@ const REFERENCES = { 0: "msl", 3: "home", 10: "ground" };
  *
  * @param {string} text  of the file
  * @param {Scene} scene  has what the plan does not say
- * @returns {{scene: Scene, altitude: Altitude}}
+ * @returns {{scene: Scene, altitude: Altitude | null}}  no altitude where the plan has a fence alone
  */
 export function sceneOfPlan(text, scene) {
-  const { fileType, mission } = parsed(text);
+  const { fileType, mission, geoFence } = parsed(text);
   if (fileType !== "Plan" || !Array.isArray(mission?.items)) throw new Error("This file is no plan of QGroundControl.");
   const items = mission.items.filter((/** @type {any} */ { type, params }) => type === "SimpleItem" && params?.length === 7);
   const at = items.findIndex((/** @type {any} */ { command }) => command in RADIUS_AT);
-  if (at < 0) throw new Error("This plan has no loiter.");
+  if (at < 0) {
+    const placed = withFence(scene, geoFence);
+    if (!placed.fence || placed === scene) throw new Error("This plan has no loiter.");
+    return { scene: placed, altitude: null };
+  }
   const { command, frame, params } = items[at];
   const signed_m = params[RADIUS_AT[command]];
   if (!signed_m) throw new Error("The loiter of this plan has no radius: the autopilot uses its own.");
   const origin = { latitude_deg: params[4], longitude_deg: params[5] };
   const circle = { east_m: 0, north_m: 0, radius_m: Math.abs(signed_m), velocity_east_m_s: 0, velocity_north_m_s: 0 };
   const [home, ...places] = [mission.plannedHomePosition, ...items.slice(0, at).map((/** @type {any} */ item) => item.params.slice(4))]
-    .filter(([latitude, longitude]) => latitude || longitude)
+    .filter((place) => place?.[0] || place?.[1])
     .map(([latitude_deg, longitude_deg]) => toLocal(origin, { latitude_deg, longitude_deg }));
   return {
-    scene: withPose({ ...withOrbit(scene, { ...circle, turn: signed_m < 0 ? "ccw" : "cw" }), origin }, poseOf([home, ...places])),
+    scene: withFence(
+      withPose({ ...withOrbit(scene, { ...circle, turn: signed_m < 0 ? "ccw" : "cw" }), origin, fence: null }, poseOf([home, ...places])),
+      geoFence,
+    ),
     altitude: {
       altitude_m: params[6],
       altitude_reference: REFERENCES[frame],
@@ -50,6 +58,39 @@ export function sceneOfPlan(text, scene) {
     },
   };
 }
+
+/**
+ * A scene with the fence of a plan, if it has one. A scene without a place on Earth has its (0, 0) in the first zone.
+ *
+ * @param {Scene} scene
+ * @param {any} fence  the plan's geoFence
+ * @returns {Scene}
+ */
+function withFence(scene, fence) {
+  const circles = list(fence?.circles).map(({ circle, inclusion }, i) => ({ name: `circle ${i + 1}`, inclusion, corners: [circle?.center], radius_m: circle?.radius }));
+  const polygons = list(fence?.polygons).map(({ polygon, inclusion }, i) => ({ name: `polygon ${i + 1}`, inclusion, corners: list(polygon), radius_m: 0 }));
+  const areas = [...polygons, ...circles];
+  if (areas.length === 0) return scene;
+  const isPlace = (/** @type {any} */ place) => Array.isArray(place) && place.length === 2 && place.every(Number.isFinite);
+  const fault = areas.find(({ corners, radius_m }) => !corners.every(isPlace) || !(Number.isFinite(radius_m) && radius_m >= 0));
+  if (fault) throw new Error(`The fence of this plan has a fault in ${fault.name}.`);
+  const [[latitude_deg, longitude_deg]] = areas[0].corners;
+  const origin = scene.origin ?? { latitude_deg, longitude_deg };
+  const zones = areas.map(({ name, inclusion, corners, radius_m }) => {
+    /** @type {[number, number][]} */
+    const places = corners.map(([latitude, longitude]) => {
+      const [east, north] = toLocal(origin, { latitude_deg: latitude, longitude_deg: longitude });
+      return [tidy(east, 0.001), tidy(north, 0.001)];
+    });
+    if (!radius_m) return { name, inclusion: inclusion === true, corners: places };
+    const [[east_m, north_m]] = places;
+    return { name, inclusion: inclusion === true, east_m, north_m, radius_m };
+  });
+  return withZones({ ...scene, origin }, zones);
+}
+
+/** @param {unknown} value @returns {any[]} */
+const list = (value) => (Array.isArray(value) ? value : []);
 
 /** The object in a JSON text. @param {string} text @returns {any} */
 function parsed(text) {
@@ -81,8 +122,9 @@ export function planOpener(store, actions) {
     if (!file) return;
     try {
       const { scene, altitude } = sceneOfPlan(await file.text(), store.get().scene);
-      actions.openScene({ scene, altitude, place: { ...scene.origin } });
-      actions.say(`Circle, aircraft and altitude are those of ${file.name}.`);
+      actions.openScene({ scene, ...(altitude ? { altitude } : {}), place: { ...scene.origin } });
+      const parts = altitude ? `Circle, aircraft${scene.fence ? ", fence" : ""} and altitude are` : "The fence is";
+      actions.say(`${parts} ${altitude ? "those" : "that"} of ${file.name}.`);
     } catch (error) {
       actions.say(/** @type {Error} */ (error).message, true);
     }

@@ -29,6 +29,7 @@ const FIELDS = {
   "origin/latitude_deg": "latitude",
   "origin/longitude_deg": "longitude",
   origin: "latitude",
+  margin_m: "margin",
   altitude_m: "altitude",
   altitude_reference: "altitude-reference",
   home_altitude_m: "home-altitude",
@@ -37,6 +38,8 @@ const FIELDS = {
 /** Names of parts that have no field of their own, or several. @type {Record<string, string>} */
 const NAMES = {
   "orbit/turn": "Direction of the hold",
+  pose: "The aircraft",
+  fence: "The fence",
   tolerance_m: "Tolerance",
   chord_error_m: "Chord error",
   origin: "The place of (0, 0) on Earth",

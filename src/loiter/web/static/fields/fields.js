@@ -19,6 +19,7 @@ import { asUnits, tidy } from "../shared/units.js";
 import { needsHome } from "./altitude.js";
 import { pairProblem, parseAngle, parsePair } from "./coordinates.js";
 import { choiceField, numberField } from "./input_fields.js";
+import { fenceFields } from "./fence_fields.js";
 import { placeFields } from "./place_fields.js";
 import { sceneFields } from "./scene_fields.js";
 
@@ -40,6 +41,7 @@ export function createFields(store, actions, camera) {
       camera.keepInView();
     }),
     ...altitudeFields(store, actions),
+    ...fenceFields(store, actions),
   };
   unitsChoice(store, actions);
   markErrors(store, fields, "scene");

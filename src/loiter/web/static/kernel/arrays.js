@@ -1,8 +1,20 @@
 // @ts-nocheck
 // What the translated library has elsewhere in Python: NumPy's ufuncs of the kernel, and checks of argument types.
 import { InvalidArgument } from "./errors.js";
-import { ABSENT, Word, encode as encoded, fly, reduce as reduced } from "./kernel.js";
-import { heading_vector } from "./library.js";
+import {
+  ABSENT,
+  Side,
+  Status,
+  Word,
+  encode as encoded,
+  fly,
+  least_time,
+  reduce as reduced,
+  rounded_radius,
+  side_or_near,
+  synthesis_status_of as status_of,
+  wind_search_fastest,
+} from "./kernel.js";
 import { elementwise, str } from "./python.js";
 
 /** `loiter.errors.instance` and `in_unit`: the page makes no values of other classes. */
@@ -18,12 +30,36 @@ export function refuse(argument, value, need) {
 export const fly_arrays = () => elementwise(fly);
 
 /** `loiter.arrays.reduce`: reduced states of positions and headings, in turn radii. */
-export function reduce(east_m, north_m, heading_deg, orbit, aircraft) {
-  const r = aircraft.turn_radius_m;
-  const state = (east, north, heading) =>
-    reduced((east - orbit.east_m) / r, (north - orbit.north_m) / r, ...heading_vector(heading));
-  return elementwise(state)(east_m, north_m, heading_deg);
-}
+export const reducer = (heading_vector) =>
+  function (east_m, north_m, heading_deg, orbit, aircraft) {
+    const r = aircraft.turn_radius_m;
+    const state = (east, north, heading) =>
+      reduced((east - orbit.east_m) / r, (north - orbit.north_m) / r, ...heading_vector(heading));
+    return elementwise(state)(east_m, north_m, heading_deg);
+  };
+
+/** `loiter.kernel.motion.reduce`, of arrays too. */
+export const reduce_states = elementwise(reduced);
+
+const SIDES = { cw: Side.CW, ccw: Side.CCW, either: Side.EITHER };
+
+/** `loiter.arrays.min_time`: the least times from reduced states. */
+export const min_time = (x, y, radius, turn) =>
+  elementwise((a, b) => (status_of(a, b, radius, 0) === Status.OK ? least_time(a, b, rounded_radius(radius), side_or_near(b, SIDES[turn]), 0) : NaN))(x, y);
+
+/** `loiter.arrays.min_time_in_wind`; `angle` is the direction of the heading. */
+export const min_time_in_wind = (x, y, angle, radius, turn, wind_x, wind_y) =>
+  elementwise(function (a, b, heading) {
+    const problem = { x: a, y: b, c: Math.cos(heading), s: Math.sin(heading), R: radius, side: SIDES[turn], wx: wind_x, wy: wind_y, tolerance: 0 };
+    const { t1, t2, t3 } = wind_search_fastest(problem);
+    return t1 + t2 + t3;
+  })(x, y, angle);
+
+/** `loiter.fences.taut.least_length_m`: a bound that needs shapely, and is none here. */
+export const no_length = () => 0;
+
+/** A class of which the page has no values. */
+export const Absent = { kind: class {} };
 
 /** `loiter.kernel.words.encode`, whose controls may be fewer than three. */
 export const encode = (u1, u2 = ABSENT, u3 = ABSENT) => encoded(u1, u2, u3);

@@ -33,10 +33,21 @@ export const race = (scene) => plain(library.race(placed(scene).problem));
 /** Every extremal. @param {Scene} scene */
 export const candidates = (scene) => plain(library.all_candidates(placed(scene)));
 
+/**
+ * Whether the plan of a scene with a fence stays clear of it.
+ *
+ * @param {Scene} scene
+ * @returns {import("../shared/types.js").FenceCheck}
+ */
+export const fenceCheck = (scene) => plain(library.fence_check(placed(scene), ...fenced(scene)));
+
+/** The fastest clear entry that is found. @param {Scene} scene @returns {import("../shared/types.js").ClearEntry} */
+export const clearEntry = (scene) => plain(library.clear_plan(placed(scene), ...fenced(scene)));
+
 const CHORD_ERROR_M = 1; // as in `loiter plan --save`
 
 /**
- * The plan as a file.
+ * The plan as a file: that of the fastest clear entry, where the plan is not clear of the scene's fence.
  *
  * @param {string} format  "geojson"
  * @param {SceneWithAltitude} options
@@ -44,15 +55,19 @@ const CHORD_ERROR_M = 1; // as in `loiter plan --save`
  */
 export function file(format, { altitude_m = undefined, altitude_reference = "msl", home_altitude_m, ...scene }) {
   const { problem, frame } = placed(scene);
-  const [maneuver] = library.all_fastest(problem);
+  const [first] = library.all_fastest(problem);
+  const isClear = !scene.fence || fenceCheck(scene).clear;
+  const maneuver = isClear ? first : library.clear_maneuver(placed(scene), ...fenced(scene));
   if (format === "svg") return { content: maneuver._drawing().svg(), type: "image/svg+xml" };
   library._check_points(maneuver, { spacing_m: null, chord_error_m: CHORD_ERROR_M });
   const datum = library.AltitudeDatum(altitude_reference, home_altitude_m ?? null);
   const altitude = altitude_m === undefined ? null : datum.checked(altitude_m);
   const ending = `.${format}`;
+  // A mission with a loiter alone lets the autopilot choose its way there.
+  const isMission = ["plan", "waypoints"].includes(format);
   const { content, media_type } = library.FILE_FORMATS.find((/** @type {{endings: string[]}} */ { endings }) => endings.includes(ending));
   const autopilot = library.AUTOPILOTS.get("ardupilot");
-  const options = library.SaveArguments(maneuver, frame, altitude, datum, null, CHORD_ERROR_M, autopilot);
+  const options = library.SaveArguments(maneuver, frame, altitude, datum, null, CHORD_ERROR_M, autopilot, !isClear && isMission);
   return { content: content(ending, options), type: media_type };
 }
 
@@ -81,6 +96,17 @@ function placed({ pose, orbit, aircraft, wind, tolerance_m = 0, origin }) {
   return library.PlacedProblem(problem, frame);
 }
 
+/** The fence of a scene and the margin, as the library has them. @param {Scene} scene */
+function fenced({ fence }) {
+  const { zones, margin_m } = fence ?? { zones: [], margin_m: null };
+  const all = zones.map((zone) =>
+    "corners" in zone
+      ? library.PolygonZone(zone.name, zone.corners, zone.inclusion)
+      : library.CircleZone(zone.name, zone.east_m, zone.north_m, zone.radius_m, zone.inclusion),
+  );
+  return [library.Fence(all), margin_m];
+}
+
 /**
  * An error of the library as the service describes it: its sentence with the names of the JSON, its kind, and the
  * fields that it refuses. Other errors are thrown again.
@@ -91,9 +117,11 @@ export function refusal(error) {
   if (!(error instanceof LoiterError)) throw error;
   const { kind, argument, problem, fitted_radius_m = null } = /** @type {any} */ (error);
   if (argument === undefined) return { sentence: error.message, kind, places: [], fitted_radius_m };
-  const { name, path } = library.JSON_FIELDS.get(argument) ?? {
+  // "zone 'mast'" is no path of the JSON.
+  const named = argument.includes("'") ? { name: argument, path: "" } : null;
+  const { name, path } = library.JSON_FIELDS.get(argument) ?? named ?? {
     name: argument.replaceAll(" ", "."),
     path: argument.replaceAll(" ", "/"),
   };
-  return { sentence: `${name} ${problem}`, kind, places: [path], fitted_radius_m };
+  return { sentence: `${name} ${problem}`, kind, places: path ? [path] : [], fitted_radius_m };
 }

@@ -4,7 +4,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 3a85e1cdd051d82f1afe599b2a2e3c40ef8c81a2b9e9cc7acb056b42e131f9c1
+ * SHA-256 of the source: 8082bc6963694dcf9b02232d8021d484274440775080056e8573f7f9fc813c6e
  */
 
 // What Python has and JavaScript has not: the first of two that tie, and quotients rounded down. Integers are doubles
@@ -430,6 +430,11 @@ export const SWING = 1.5707963267948966; /* 0.5 * pi */
 
 /* Points of joining around the circle between which `ranked` looks for local minima. */
 export const SAMPLES = 128;
+
+/* Each step squares the difference of the two means: seven reach rounding from any wind that a double can tell from
+ * 1.
+ */
+export const MEANS = 7;
 
 /**
  * The reduced state (2) of a vehicle at (x, y), relative to the circle's centre, with the unit heading (c, s).
@@ -4107,4 +4112,63 @@ export function wind_search_optima(problem) {
     const maneuvers = wind_search_ranked(problem);
     const least = Math.min(...maneuvers.map(time_of));
     return maneuvers.filter((m) => is_tie_in_wind(time_of(m), least, problem.R));
+}
+
+/**
+ * Tangent for |a| up to 2^19.
+ *
+ * @type {(a: number) => number}
+ */
+export function tan(a) {
+    return sin(a) / cos(a);
+}
+
+/**
+ * The angle in [-pi/2, pi/2] whose tangent is x.
+ *
+ * @type {(x: number) => number}
+ */
+export function atan(x) {
+    return atan2(x, 1.0);
+}
+
+/**
+ * E(p | w^2) for any p and 0 <= w < 1, by arithmetic and geometric means (Abramowitz and Stegun, 17.6).
+ *
+ * @type {(p: number, w: number) => number}
+ */
+export function elliptic(p, w) {
+    let a = 1.0, b = Math.sqrt((1.0 - w) * (1.0 + w)), c = w;
+    let squares = 0.5 * c * c, sines = 0.0, power = 1.0;
+    for (let pass_1 = 0; pass_1 < MEANS; pass_1++) {
+        // The arctangent's branch follows p, so that p doubles with each step. It is that of the rounded tangent, whose
+        // sign is either one where p is an odd multiple of pi/2.
+        const slope = tan(p);
+        p = p + atan(b / a * slope) + 3.141592653589793 * Math.floor((p - atan(slope)) / 3.141592653589793 + 0.5);
+        const new_a = 0.5 * (a + b);
+        const new_b = Math.sqrt(a * b);
+        const new_c = 0.5 * (a - b);
+        a = new_a;
+        b = new_b;
+        c = new_c;
+        power = 2.0 * power;
+        squares = squares + 0.5 * power * c * c;
+        sines = sines + c * sin(p);
+    }
+    return p / (power * a) * (1.0 - squares) + sines;
+}
+
+/**
+ * The time to hold the circle from `phase` - `width` (zero or more) to `phase`.
+ *
+ * @type {(phase: number, width: number, R: number, wx: number, wy: number) => number}
+ */
+export function time_held(phase, width, R, wx, wy) {
+    const wind = length(wx, wy);
+    const before = phase - width;
+    if (wind === 0.0) {
+        return R * width;
+    }
+    const along = 2.0 * wind * cos(0.5 * (phase + before)) * sin(0.5 * width);
+    return R * (elliptic(phase, wind) - elliptic(before, wind) + along) / ((1.0 - wind) * (1.0 + wind));
 }

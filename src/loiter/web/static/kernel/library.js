@@ -5,7 +5,10 @@ import * as errors from "./errors.js";
 import * as geodesic from "./geodesic.js";
 import * as kernel from "./kernel.js";
 import * as arrays from "./arrays.js";
-import { Complex, ElementTree, Tuple, Values, abs, accumulate, add, all, and, any, any_, append_, asdict, bit_and, bit_or, cached, capitalize_, cmath, complex, conjugate_, copy_, csv, dict, div, encode_, enumerate, enumeration, eq, escape, float, format, ge, get_, gt, has, index_, int, io, item, items_, iter, iter_items, join_, json, le, len, letters, list, lower_, lt, map, math, max, min, mod, mul, name_of, ne, neg, next, np, or, pairwise, partial, plain, pop_, pow, range, removesuffix_, replace, replace_, repr, reversed, round, round_, rows, set, set_item, set_of, sliced, sorted, str, struct, sub, sum, tolist_, truth, tuple, values_, with_middle, zip } from "./python.js";
+import * as shapes from "./shapes.js";
+import { np } from "./numpy.js";
+import { Complex, ElementTree, Tuple, Values, abs, accumulate, add, all, and, any, any_, append_, asdict, bit_and, bit_or, bool, cached, capitalize_, cmath, complex, conjugate_, copy_, csv, dict, div, encode_, enumerate, enumeration, eq, escape, float, floordiv, format, ge, get_, gt, has, heappop, heappush, index_, int, invert, io, isinstance, item, items_, iter, iter_items, join_, json, le, len, letters, list, lower_, lt, map, math, max, min, mod, mul, name_of, ne, neg, next, or, pairwise, partial, plain, pop_, pow, range, removesuffix_, replace, replace_, repr, reversed, round, round_, rows, set, set_item, set_of, slice, sliced, sorted, str, struct, sub, sum, tolist_, truth, tuple, values_, with_middle, zip } from "./python.js";
+import { shapely } from "./shapes.js";
 
 function plan(placed) {
 let _, best, document, entry, first, maneuver, maneuvers, others, start_x, start_y;
@@ -39,22 +42,22 @@ return new Map([["certificate", checked.to_dict()], ["series", bit_or(series, ne
 }
 
 function lap(maneuver, laps = 1) {
-let R, V, aircraft, c, centre, east, first, g, i, join, names, north, orbit, r, rows, s, side, speed, step, time, wx, wy, x, y;
+let R, V, aircraft, c, centre, east, first, g, i, join, names, north, orbit, r, rows_, s, side, speed, step, time, wx, wy, x, y;
 [aircraft, orbit, side] = iter([maneuver.aircraft, maneuver.orbit, item(SIDES, maneuver.turn)]);
 [r, V, centre] = iter([aircraft.turn_radius_m, aircraft.airspeed_m_s, maneuver.orbit_at_join]);
 [R, [wx, wy]] = iter([radius_in_turns(orbit, aircraft), relative_wind(orbit, aircraft, maneuver.wind)]);
 [join, step] = iter([maneuver.join, div(mul(2.0, math.pi), LAP_STEPS)]);
 first = kernel.phase_of(div(sub(join.east_m, centre.east_m), r), div(sub(join.north_m, centre.north_m), r), side, wx, wy);
-[time, speed, rows] = iter([maneuver.duration_s, null, []]);
+[time, speed, rows_] = iter([maneuver.duration_s, null, []]);
 for (i of iter(range(add(mul(laps, LAP_STEPS), 1)))) {
 [x, y, c, s, g] = iter(kernel.hold_pose(add(first, mul(i, step)), side, R, wx, wy));
 time = ((speed == null) ? time : add(time, div(mul(mul(step, R), r), mul(mul(0.5, add(speed, g)), V))));
 [east, north] = iter(orbit.centre_after(time));
-append_(rows, [time, add(east, mul(r, x)), add(north, mul(r, y)), wrapped(math.degrees(math.atan2(c, s))), 0.0, mul(side, R)]);
+append_(rows_, [time, add(east, mul(r, x)), add(north, mul(r, y)), wrapped(math.degrees(math.atan2(c, s))), 0.0, mul(side, R)]);
 speed = g;
 }
 names = ["time_s", "east_m", "north_m", "heading_deg", "x", "y"];
-return new Map(list(iter(zip(names, zip(...iter(rows))))).map((one) => iter(one)).map(([name, column]) => [name, list(column)]));
+return new Map(list(iter(zip(names, zip(...iter(rows_))))).map((one) => iter(one)).map(([name, column]) => [name, list(column)]));
 }
 
 function race(problem) {
@@ -71,6 +74,153 @@ one.advance(dt);
 }
 return list(iter(flown)).map((one) => one.result());
 }
+
+function fence_check(placed, fence, margin_m) {
+let _, first, found;
+[first, ..._] = iter(all_fastest(placed.problem));
+found = check(fence, first, margin_m);
+return bit_or(found.to_dict(), new Map([["sentence", found.sentence()]]));
+}
+
+function clear_plan(placed, fence, margin_m) {
+let answer, best, found, values;
+found = _search(placed, fence, margin_m);
+best = found.maneuver;
+answer = new Map([["sentence", found.sentence], ["least_s", (eq(found.least_s, math.inf) ? null : found.least_s)], ["blocking", list(found.blocking)], ["later_s", null], ["instruction", null], ["lap", null], ["maneuver", null]]);
+if ((best == null)) {
+return answer;
+}
+values = bit_or(maneuver_values(best, placed.frame), new Map([["track", track(best)]]));
+return bit_or(answer, new Map([["later_s", found.later_s], ["instruction", instruction(best)], ["lap", lap(best)], ["maneuver", values]]));
+}
+
+function clear_maneuver(placed, fence, margin_m) {
+let found;
+found = _search(placed, fence, margin_m);
+if ((found.maneuver == null)) {
+throw errors.InvalidArgument("fence", `lets no plan through that a file could have: ${str(found.sentence)}`);
+}
+return found.maneuver;
+}
+
+const CircleZone = struct(class extends Values {
+constructor(name, east_m, north_m, radius_m, inclusion = false) {
+super();
+this.name = name;
+this.east_m = east_m;
+this.north_m = north_m;
+this.radius_m = radius_m;
+this.inclusion = inclusion;
+this.__post_init__();
+}
+__post_init__() {
+const self = this;
+number(`zone ${repr(self.name)} east_m`, self.east_m, "metres");
+number(`zone ${repr(self.name)} north_m`, self.north_m, "metres");
+positive(`zone ${repr(self.name)} radius_m`, self.radius_m, "metres");
+}
+}, ["name", "east_m", "north_m", "radius_m", "inclusion"], 'CircleZone');
+
+const PolygonZone = struct(class extends Values {
+constructor(name, corners, inclusion = false) {
+super();
+this.name = name;
+this.corners = corners;
+this.inclusion = inclusion;
+this.__post_init__();
+}
+__post_init__() {
+let corners, following, problem, where;
+const self = this;
+where = `zone ${repr(self.name)}`;
+corners = list(iter(self.corners)).map((corner) => _checked_corner(where, corner));
+following = [...iter(sliced(corners, 1, null, null)), ...iter(sliced(corners, null, 1, null))];
+corners = list(iter(zip(corners, following))).map((one) => iter(one)).filter(([corner, after]) => truth(_differ(corner, after))).map(([corner, after]) => corner);
+if (lt(len(corners), LEAST_CORNERS)) {
+throw errors.InvalidArgument(where, `has ${len(corners)} different corners: a polygon needs ${str(LEAST_CORNERS)}`);
+}
+(self["corners"] = tuple(corners));
+if (truth((problem = shapes.invalidity(self._polygon)))) {
+throw errors.InvalidArgument(where, problem);
+}
+}
+get _polygon() { return cached(this, "_polygon", () => {
+let polygon;
+const self = this;
+
+polygon = shapely.Polygon(self.corners);
+shapely.prepare(polygon);
+return polygon;
+}); }
+}, ["name", "corners", "inclusion"], 'PolygonZone');
+
+const Fence = struct(class extends Values {
+constructor(zones) {
+super();
+this.zones = zones;
+this.__post_init__();
+}
+check(maneuver, margin_m = null) {
+const self = this;
+return check_zones(self, maneuver, margin_m);
+}
+__post_init__() {
+let zone;
+const self = this;
+(self["zones"] = tuple(self.zones));
+if (!truth(self.zones)) {
+throw errors.InvalidArgument("fence", "has no zones");
+}
+for (zone of iter(self.zones)) {
+if (!truth(isinstance(zone, CircleZone, PolygonZone))) {
+throw errors.InvalidArgument("fence", `has ${repr(zone)}: a zone is a CircleZone or a PolygonZone`);
+}
+}
+_check_common_point(list(iter(self.zones)).filter((zone) => truth(zone.inclusion)).map((zone) => zone));
+}
+get polygons() { return cached(this, "polygons", () => {
+const self = this;
+return tuple(list(iter(self.zones)).filter((zone) => truth(isinstance(zone, PolygonZone))).map((zone) => zone));
+}); }
+get circle_zones() { return cached(this, "circle_zones", () => {
+const self = this;
+return tuple(list(iter(self.zones)).filter((zone) => truth(isinstance(zone, CircleZone))).map((zone) => zone));
+}); }
+get edges() { return cached(this, "edges", () => {
+const self = this;
+return edges_of(self.polygons);
+}); }
+get circles() { return cached(this, "circles", () => {
+let rows_;
+const self = this;
+
+rows_ = list(iter(self.circle_zones)).map((z) => [z.east_m, z.north_m, z.radius_m, (truth(z.inclusion) ? -1.0 : 1.0)]);
+return Circles(...iter(np.array(rows_, float).reshape(-1, 4).T));
+}); }
+signed_distances(east_m, north_m) {
+let allowed, inside, nearest, outside;
+const self = this;
+
+
+outside = sub(np.hypot(sub(self.circles.x, east_m), sub(self.circles.y, north_m)), self.circles.radius);
+if (!truth(self.polygons)) {
+return [np.empty(0), mul(self.circles.sign, outside)];
+}
+nearest = np.minimum.reduceat(to_edge(east_m, north_m, self.edges), self.edges.first);
+inside = shapely.contains_xy(list(iter(self.polygons)).map((zone) => zone._polygon), east_m, north_m);
+allowed = eq(inside, list(iter(self.polygons)).map((zone) => zone.inclusion));
+return [np.where(allowed, nearest, neg(nearest)), mul(self.circles.sign, outside)];
+}
+violated(east_m, north_m) {
+let deepest, distances, sides, zones;
+const self = this;
+distances = self.signed_distances(east_m, north_m);
+zones = [...iter(self.polygons), ...iter(self.circle_zones)];
+sides = list(iter(distances)).flatMap((each) => list(iter(tolist_(each))).map((side) => side));
+deepest = min(sides);
+return (lt(deepest, 0.0) ? item(zones, index_(sides, deepest)) : null);
+}
+}, ["zones"], 'Fence');
 
 function _check_points(maneuver, options) {
 let count, name;
@@ -159,7 +309,7 @@ throw errors.InvalidArgument("autopilot", `is px4, which would fly to the home l
 return wpl(_mission(ending, arguments_));
 }
 
-const Format = struct(class Format extends Tuple {
+const Format = struct(class extends Tuple {
 constructor(endings, kind, media_type, name, use, content = null) {
 super();
 this.endings = endings;
@@ -316,15 +466,15 @@ return tuple(list(iter(counts)).map((count) => max(1, math.ceil(count))));
 }
 
 function table(track, frame, altitude_m) {
-let columns, rows, text;
+let columns, rows_, text;
 columns = _columns(track, frame);
 if ((altitude_m != null)) {
 set_item(columns, "altitude_m", mul([altitude_m], track.time_s.size));
 }
 text = io.StringIO({ newline: "" });
-rows = csv.writer(text, { lineterminator: "\n" });
-rows.writerow(columns);
-rows.writerows(zip(...iter(values_(columns))));
+rows_ = csv.writer(text, { lineterminator: "\n" });
+rows_.writerow(columns);
+rows_.writerows(zip(...iter(values_(columns))));
 return encode_(text.getvalue());
 }
 
@@ -540,7 +690,7 @@ loiter = MissionItem(MavCommand.NAV_LOITER_UNLIM, datum.frame, params, ...iter(c
 return Mission([...iter(items), loiter], [...iter(home_place), home_m]);
 }
 
-const MissionItem = struct(class MissionItem extends Tuple {
+const MissionItem = struct(class extends Tuple {
 constructor(command, frame, params, latitude_deg, longitude_deg, altitude_m, autocontinue = true) {
 super();
 this.command = command;
@@ -585,7 +735,7 @@ throw errors.OutOfRange(`the maneuver goes more than ${format(div(REACH_M, 1000.
 return [tolist_(round_(latitude, places_DECIMALS)), tolist_(round_(longitude, places_DECIMALS))];
 }
 
-const SegmentLine = struct(class SegmentLine extends Tuple {
+const SegmentLine = struct(class extends Tuple {
 constructor(segment, latitude_deg, longitude_deg) {
 super();
 this.segment = segment;
@@ -596,13 +746,13 @@ this.longitude_deg = longitude_deg;
 }, ["segment", "latitude_deg", "longitude_deg"], 'SegmentLine');
 
 function _marks(maneuver, frame, track, at, latitude, longitude) {
-let actions, headings, lat, lon, rows, tracks;
+let actions, headings, lat, lon, rows_, tracks;
 [lat, lon] = iter([list(iter(at)).map((i) => item(latitude, i)), list(iter(at)).map((i) => item(longitude, i))]);
 headings = true_headings(frame, item(track.heading_deg, at), lat, lon);
 tracks = true_headings(frame, item(track.track_deg, at), lat, lon);
 actions = list(iter(maneuver.segments)).map((segment) => item(ACTIONS, segment.letter));
-rows = zip(_kinds(len(maneuver.segments)), [...iter(actions), `hold ${str(Turn_described(maneuver.turn))}`], tolist_(item(track.time_s, at)), lat, lon, headings, tracks, tolist_(item(track.ground_speed_m_s, at)));
-return list(iter(rows)).map((row) => Mark(...iter(row)));
+rows_ = zip(_kinds(len(maneuver.segments)), [...iter(actions), `hold ${str(Turn_described(maneuver.turn))}`], tolist_(item(track.time_s, at)), lat, lon, headings, tracks, tolist_(item(track.ground_speed_m_s, at)));
+return list(iter(rows_)).map((row) => Mark(...iter(row)));
 }
 
 function circle_polygon(orbit, chord_error_m, bend_per_m = 0.0) {
@@ -617,7 +767,7 @@ angle = div(mul(mul(2.0, math.pi), mod(np.arange(add(sides, 1)), sides)), sides)
 return [add(orbit.east_m, mul(orbit.radius_m, np.cos(angle))), add(orbit.north_m, mul(orbit.radius_m, np.sin(angle)))];
 }
 
-const Chart = struct(class Chart extends Tuple {
+const Chart = struct(class extends Tuple {
 constructor(maneuver, altitude_m, lines, marks, circle, centre_latitude_deg, centre_longitude_deg, above_ground = false, name = "") {
 super();
 this.maneuver = maneuver;
@@ -671,7 +821,7 @@ return [`Multi${str(kind)}`, parts];
 return [kind, part];
 }
 
-const Position = struct(class Position extends Tuple {
+const Position = struct(class extends Tuple {
 constructor(longitude, latitude) {
 super();
 this.longitude = longitude;
@@ -744,7 +894,7 @@ heading = mod(heading_deg, 360.0);
 return mul(heading, lt(heading, 360.0));
 }
 
-const Samples = struct(class Samples extends Tuple {
+const Samples = struct(class extends Tuple {
 constructor(time_s, east_m, north_m, heading_deg, curvature_per_m, track_deg, ground_speed_m_s, ground_curvature_per_m) {
 super();
 this.time_s = time_s;
@@ -782,7 +932,7 @@ let radius_m, u;
 return tuple(np.broadcast_arrays(...iter(_flown(segment.start, u, length_m, radius_m, aircraft, wind, arrays.fly_arrays()))));
 }
 
-const AltitudeDatum = struct(class AltitudeDatum extends Values {
+const AltitudeDatum = struct(class extends Values {
 constructor(reference = AltitudeReference.MSL, home_altitude_m = null) {
 super();
 this.reference = reference;
@@ -854,7 +1004,7 @@ throw errors.InvalidArgument(argument, `is ${format(altitude_m, `g`)}: it must b
 return altitude_m;
 }
 
-const Maneuver = struct(class Maneuver extends Values {
+const Maneuver = struct(class extends Values {
 constructor(start, orbit, aircraft, turn, segments, miss_m, wind = CALM) {
 super();
 this.start = start;
@@ -915,7 +1065,7 @@ return Drawing(str(self), self.start, self.segments, self.join, self.orbit_at_jo
 }
 }, ["start", "orbit", "aircraft", "turn", "segments", "miss_m", "wind"], 'Maneuver');
 
-const LocalFrame = struct(class LocalFrame extends Values {
+const LocalFrame = struct(class extends Values {
 constructor(latitude_deg, longitude_deg) {
 super();
 this.latitude_deg = latitude_deg;
@@ -1004,7 +1154,7 @@ set_item(new_, sub(numbers.direction, 1), float(lt(signed_m, 0.0)));
 return [first, second, third, fourth];
 }
 
-const Waypoint = struct(class Waypoint extends Tuple {
+const Waypoint = struct(class extends Tuple {
 constructor(east_m, north_m, acceptance_m = 0.0) {
 super();
 this.east_m = east_m;
@@ -1018,7 +1168,7 @@ function places_in_degrees(frame, places) {
 return list(zip(...iter(degrees(frame, list(iter(places)).map((p) => p.east_m), list(iter(places)).map((p) => p.north_m)))));
 }
 
-const Mission = struct(class Mission extends Tuple {
+const Mission = struct(class extends Tuple {
 constructor(items, home) {
 super();
 this.items = items;
@@ -1034,7 +1184,7 @@ return ["join"];
 return ["start", ...iter(mul(["switch"], sub(segments, 2))), ...iter(mul(["peel-off"], gt(segments, 1))), "join"];
 }
 
-const Mark = struct(class Mark extends Tuple {
+const Mark = struct(class extends Tuple {
 constructor(kind, action, time_s, latitude_deg, longitude_deg, heading_deg, track_deg, ground_speed_m_s) {
 super();
 this.kind = kind;
@@ -1128,7 +1278,7 @@ heading = heading_after(start.heading_deg, mul(u, t));
 return [position_after(add(start.east_m, mul(r, east)), wind_east, time_s), position_after(add(start.north_m, mul(r, north)), wind_north, time_s), heading];
 }
 
-const Wind = struct(class Wind extends Values {
+const Wind = struct(class extends Values {
 constructor(speed_m_s, from_deg) {
 super();
 this.speed_m_s = speed_m_s;
@@ -1165,7 +1315,7 @@ let east, north;
 return [sub(0.0, mul(speed_m_s, east)), sub(0.0, mul(speed_m_s, north))];
 }
 
-const Hold = struct(class Hold extends Values {
+const Hold = struct(class extends Values {
 constructor(orbit, aircraft, wind, turn) {
 super();
 this.orbit = orbit;
@@ -1199,7 +1349,7 @@ return HoldPoint(wrapped(math.degrees(math.atan2(x, y))), heading_deg, track_deg
 }
 }, ["orbit", "aircraft", "wind", "turn"], 'Hold');
 
-const Pose = struct(class Pose extends Values {
+const Pose = struct(class extends Values {
 constructor(east_m, north_m, heading_deg, altitude_m = null) {
 super();
 this.east_m = east_m;
@@ -1239,7 +1389,7 @@ function decimals_of(orbit) {
 return (ge(orbit.radius_m, 10.0) ? 1 : 3);
 }
 
-const Drawing = struct(class Drawing extends Tuple {
+const Drawing = struct(class extends Tuple {
 constructor(title, start, segments, join, circle, turn, aircraft, wind) {
 super();
 this.title = title;
@@ -1284,7 +1434,7 @@ throw errors.InvalidArgument(`${str(argument)} longitude_deg`, `is ${str(longitu
 return [lat, lon];
 }
 
-const Place = struct(class Place extends Tuple {
+const Place = struct(class extends Tuple {
 constructor(latitude_deg, longitude_deg, heading_deg) {
 super();
 this.latitude_deg = latitude_deg;
@@ -1329,7 +1479,7 @@ circle = [orbit.velocity_east_m_s, orbit.velocity_north_m_s];
 return RelativeWind(...iter(relative_velocity(wind.velocity_m_s, circle, aircraft.airspeed_m_s)));
 }
 
-const HoldPoint = struct(class HoldPoint extends Tuple {
+const HoldPoint = struct(class extends Tuple {
 constructor(azimuth_deg, heading_deg, track_deg, ground_speed_m_s, bank_deg) {
 super();
 this.azimuth_deg = azimuth_deg;
@@ -1341,7 +1491,7 @@ this.bank_deg = bank_deg;
 }
 }, ["azimuth_deg", "heading_deg", "track_deg", "ground_speed_m_s", "bank_deg"], 'HoldPoint');
 
-const Setpoints = struct(class Setpoints extends Tuple {
+const Setpoints = struct(class extends Tuple {
 constructor(time_s, east_m, north_m, tangent_east, tangent_north, curvature_per_m, speed_m_s) {
 super();
 this.time_s = time_s;
@@ -1404,7 +1554,7 @@ outline = `0,${str(neg(size))} ${str(mul(0.6, size))},${str(mul(0.7, size))} 0,$
 return `<polygon points="${str(outline)}" transform="translate(${str(place)}) rotate(${format(turned, `.1f`)})" fill="black"/>`;
 }
 
-const CircleParameters = struct(class CircleParameters extends Tuple {
+const CircleParameters = struct(class extends Tuple {
 constructor(radius, direction = null) {
 super();
 this.radius = radius;
@@ -1420,7 +1570,7 @@ throw errors.InvalidArgument("turn", `is ${repr(str(turn))}: a circle is held cw
 return eq(turn, Turn.CCW);
 }
 
-const Orbit = struct(class Orbit extends Values {
+const Orbit = struct(class extends Values {
 constructor(east_m, north_m, radius_m, turn = Turn.EITHER, velocity_east_m_s = 0.0, velocity_north_m_s = 0.0) {
 super();
 this.east_m = east_m;
@@ -1470,7 +1620,7 @@ return math.hypot(sub(pose.east_m, self.east_m), sub(pose.north_m, self.north_m)
 }
 }, ["east_m", "north_m", "radius_m", "turn", "velocity_east_m_s", "velocity_north_m_s"], 'Orbit');
 
-const Aircraft = struct(class Aircraft extends Values {
+const Aircraft = struct(class extends Values {
 constructor(airspeed_m_s, max_bank_deg = null, min_turn_radius_m = null, max_turn_rate_deg_s = null, climb_rate_m_s = null, descent_rate_m_s = null) {
 super();
 this.airspeed_m_s = airspeed_m_s;
@@ -1520,7 +1670,7 @@ return math.degrees(math.atan2(mul(self.airspeed_m_s, self.airspeed_m_s), mul(ST
 }
 }, ["airspeed_m_s", "max_bank_deg", "min_turn_radius_m", "max_turn_rate_deg_s", "climb_rate_m_s", "descent_rate_m_s"], 'Aircraft');
 
-const RelativeWind = struct(class RelativeWind extends Tuple {
+const RelativeWind = struct(class extends Tuple {
 constructor(x, y) {
 super();
 this.x = x;
@@ -1540,7 +1690,7 @@ passes = gt(math.hypot(wx, wy), mul(ROUNDING, add(math.hypot(...iter(air)), math
 return [add(div(mul(wx, passes), airspeed), 0.0), add(div(mul(wy, passes), airspeed), 0.0)];
 }
 
-const _View = struct(class _View extends Tuple {
+const _View = struct(class extends Tuple {
 constructor(east, north, scale, height) {
 super();
 this.east = east;
@@ -1573,7 +1723,7 @@ function radius_at_bank(airspeed_m_s, bank_deg) {
 return div(mul(airspeed_m_s, airspeed_m_s), mul(STANDARD_GRAVITY_M_S2, math.tan(math.radians(bank_deg))));
 }
 
-const SaveArguments = struct(class SaveArguments extends Tuple {
+const SaveArguments = struct(class extends Tuple {
 constructor(maneuver, frame, altitude_m, datum, spacing_m, chord_error_m, autopilot, along_path = false, site = null, name = "") {
 super();
 this.maneuver = maneuver;
@@ -1590,7 +1740,7 @@ this.name = name;
 }
 }, ["maneuver", "frame", "altitude_m", "datum", "spacing_m", "chord_error_m", "autopilot", "along_path", "site", "name"], 'SaveArguments');
 
-const JsonField = struct(class JsonField extends Tuple {
+const JsonField = struct(class extends Tuple {
 constructor(name, path) {
 super();
 this.name = name;
@@ -1599,7 +1749,7 @@ this.path = path;
 }
 }, ["name", "path"], 'JsonField');
 
-const Problem = struct(class Problem extends Values {
+const Problem = struct(class extends Values {
 constructor(pose, orbit, aircraft, wind = CALM, tolerance_m = 0.0) {
 super();
 this.pose = pose;
@@ -1648,7 +1798,7 @@ reduced() {
 let orbit, r, reduced, status, x, y;
 const self = this;
 [orbit, r] = iter([self.orbit, self.aircraft.turn_radius_m]);
-[x, y] = iter(kernel.reduce(...iter(self._relative_state())));
+[x, y] = iter(arrays.reduce_states(...iter(self._relative_state())));
 reduced = ReducedProblem(x, y, kernel.rounded_radius(self.radius), item(SIDES, orbit.turn), div(self.tolerance_m, r));
 status = kernel.synthesis_status_of(reduced.x, reduced.y, reduced.R, reduced.tolerance);
 if (eq(status, kernel.Status.RADIUS_TOO_SMALL)) {
@@ -1694,7 +1844,7 @@ function all_fastest(problem) {
 return maneuvers(solve_problem(problem, kernel.synthesis_optima, kernel.wind_search_optima));
 }
 
-const PlacedProblem = struct(class PlacedProblem extends Tuple {
+const PlacedProblem = struct(class extends Tuple {
 constructor(problem, frame) {
 super();
 this.problem = problem;
@@ -1731,7 +1881,7 @@ flown = vertices(maneuver, step_counts(maneuver, null, mul(CHORD_ERROR, maneuver
 [orbit, time] = iter([maneuver.orbit, flown.time_s]);
 [centre_east, centre_north] = iter(orbit.centre_after(time));
 [east, north] = iter([sub(flown.east_m, centre_east), sub(flown.north_m, centre_north)]);
-[x, y] = iter(arrays.reduce(east, north, flown.heading_deg, replace(orbit, { east_m: 0.0, north_m: 0.0 }), maneuver.aircraft));
+[x, y] = iter(arrays.reducer(heading_vector)(east, north, flown.heading_deg, replace(orbit, { east_m: 0.0, north_m: 0.0 }), maneuver.aircraft));
 return new Map([["time_s", tolist_(time)], ["east_m", tolist_(flown.east_m)], ["north_m", tolist_(flown.north_m)], ["heading_deg", tolist_(flown.heading_deg)], ["x", tolist_(x)], ["y", tolist_(y)]]);
 }
 
@@ -1804,7 +1954,7 @@ start = trajectory.first.start;
 return Certificate(maneuver, lam, psi, _choice(trajectory), tuple(switches_of(trajectory)), tuple(residuals(formulation, trajectory, accuracy, others)), others, trajectory.pieces, mul(accuracy.tie, problem.time_unit_s), and(problem.has_closed_form, () => eq(tolerance_m, 0.0)));
 }
 
-const Instant = struct(class Instant extends Tuple {
+const Instant = struct(class extends Tuple {
 constructor(time_s, u, phi, psi1, psi2) {
 super();
 this.time_s = time_s;
@@ -1823,7 +1973,7 @@ period_s = min(SHORTEST_PERIOD_S, div(mul(PERIOD, aircraft.turn_radius_m), aircr
 return new Map([["L1", L1(orbit, aircraft, wind, period_s)], ["vector field", VectorField(orbit, aircraft, wind)], ["tangent point", Tangent(orbit, aircraft, wind, undefined, undefined, period_s)]]);
 }
 
-const _Flown = struct(class _Flown extends Values {
+const _Flown = struct(class extends Values {
 constructor(name, law, problem) {
 super();
 const self = this;
@@ -1849,12 +1999,99 @@ return new Map([["law", self.name], ["joined_s", (truth(self.monitor.settled) ? 
 }
 }, []);
 
+function check(fence, maneuver, margin_m = null) {
+arrays.unchecked("fence", fence, Fence);
+return fence.check(maneuver, margin_m);
+}
+
+function _search(placed, fence, margin_m) {
+let problem;
+problem = placed.problem;
+return clear_entry(fence, problem.pose, problem.orbit, problem.aircraft, problem.wind, margin_m);
+}
+
+function _checked_corner(where, corner) {
+let east, north;
+if (ne(len(corner), 2)) {
+throw errors.InvalidArgument(where, "has a corner that is not two numbers, east and north");
+}
+[east, north] = iter(list(iter(corner)).map((value) => number(`${str(where)} corner`, value, "metres")));
+return [east, north];
+}
+
+function _differ(corner, other) {
+return gt(math.dist(corner, other), SAME_CORNER_M);
+}
+
+function check_zones(fence, maneuver, margin_m) {
+let approaches, breaches, closest, closest_one, flown, least, nearest, ordered, path, places, zone, zones;
+[flown, maneuver] = iter([maneuver, (truth(isinstance(maneuver, arrays.Absent)) ? maneuver.entry : maneuver)]);
+arrays.unchecked("maneuver", maneuver, Maneuver);
+margin_m = ((margin_m == null) ? default_margin_m(maneuver.orbit) : not_negative("margin_m", margin_m, "metres"));
+path = flown_path(flown);
+_check_start(fence, maneuver.start);
+approaches = [];
+for ([zones, closest] of rows(zip(_by_kind(fence), approach(fence, path.pieces, margin_m)))) {
+places = zip(tolist_(closest.distance), tolist_(closest.piece), tolist_(closest.time_s));
+approaches = add(approaches, list(iter(zip(zones, places))).map((one) => iter(one)).map(([zone, place]) => [zone, PlaceInPath(...iter(place))]));
+}
+[zone, nearest] = iter(min(approaches, { key: ((each) => item(each, 1).distance) }));
+breaches = list(iter(approaches)).map((one) => iter(one)).filter(([zone, near]) => le(near.distance, add(margin_m, TOUCH_M))).map(([zone, near]) => _breach(zone, near, path, maneuver));
+ordered = tuple(sorted(breaches, { key: ((breach) => breach.time_s) }));
+least = min(ordered, { key: ((breach) => breach.clearance_m), default: null });
+closest_one = or(least, () => _at(zone, nearest.distance, nearest, path, maneuver));
+return FenceCheck(margin_m, closest_one, ordered, decimals_of(maneuver.orbit));
+}
+
+function _check_common_point(inclusions) {
+let i, names, other, zone;
+for ([i, zone] of rows(enumerate(inclusions))) {
+for (other of iter(sliced(inclusions, add(i, 1), null, null))) {
+if (gt(shapes.gap_m(zone, other), 0.0)) {
+names = `${repr(zone.name)} and ${repr(other.name)}`;
+throw errors.InvalidArgument("fence", `has the inclusion zones ${str(names)} with no common point to fly in`);
+}
+}
+}
+}
+
+function edges_of(polygons) {
+let ax, ay, bx, by, counts, ends, first, starts;
+
+starts = list(iter(polygons)).flatMap((zone) => list(iter(zone.corners)).map((corner) => corner));
+ends = list(iter(polygons)).flatMap((zone) => list(iter([...iter(sliced(zone.corners, 1, null, null)), item(zone.corners, 0)])).map((corner) => corner));
+counts = list(iter(polygons)).map((zone) => len(zone.corners));
+[[ax, ay], [bx, by]] = iter(list(iter([starts, ends])).map((places) => np.array(places, float).reshape(-1, 2).T));
+first = sliced(np.cumsum([0, ...iter(counts)]), null, -1, null).astype(np.intp);
+return Edges(ax, ay, bx, by, first, np.repeat(np.arange(len(counts)), counts));
+}
+
+const Circles = struct(class extends Tuple {
+constructor(x, y, radius, sign) {
+super();
+this.x = x;
+this.y = y;
+this.radius = radius;
+this.sign = sign;
+
+}
+}, ["x", "y", "radius", "sign"], 'Circles');
+
+function to_edge(x, y, edges) {
+let ex, ey, px, py, share;
+
+[ex, ey] = iter([sub(edges.bx, edges.ax), sub(edges.by, edges.ay)]);
+[px, py] = iter([sub(x, edges.ax), sub(y, edges.ay)]);
+share = np.clip(div(add(mul(px, ex), mul(py, ey)), add(mul(ex, ex), mul(ey, ey))), 0.0, 1.0);
+return np.hypot(sub(px, mul(share, ex)), sub(py, mul(share, ey)));
+}
+
 function flown_from(start, u, length_m, aircraft, wind, radius_m = null) {
 radius_m = ((radius_m == null) ? aircraft.turn_radius_m : radius_m);
 return Pose(...iter(_flown(start, u, length_m, radius_m, aircraft, wind, kernel.fly)));
 }
 
-const ReducedProblem = struct(class ReducedProblem extends Tuple {
+const ReducedProblem = struct(class extends Tuple {
 constructor(x, y, R, side, tolerance) {
 super();
 this.x = x;
@@ -1896,7 +2133,7 @@ throw errors.RadiusTooSmall(sentence, mul(tightest, aircraft.turn_radius_m));
 }
 }
 
-const WindProblem = struct(class WindProblem extends Tuple {
+const WindProblem = struct(class extends Tuple {
 constructor(x, y, c, s, R, side, wx, wy, tolerance = 0.0) {
 super();
 this.x = x;
@@ -2063,7 +2300,7 @@ early = math.sqrt(mul(2.0, pow(accuracy.length, div(2.0, 3.0))));
 return Violation(max(0.0, sub(last.t, longest)), add(accuracy.end, early));
 }
 
-const Formulation = struct(class Formulation extends Tuple {
+const Formulation = struct(class extends Tuple {
 constructor(arrival, motion, maximum_principle, further, gradient) {
 super();
 this.arrival = arrival;
@@ -2075,7 +2312,7 @@ this.gradient = gradient;
 }
 }, ["arrival", "motion", "maximum_principle", "further", "gradient"], 'Formulation');
 
-const Condition = struct(class Condition extends Tuple {
+const Condition = struct(class extends Tuple {
 constructor(name, equation, violation) {
 super();
 this.name = name;
@@ -2085,7 +2322,7 @@ this.violation = violation;
 }
 }, ["name", "equation", "violation"], 'Condition');
 
-const EquationOfMotion = struct(class EquationOfMotion extends Tuple {
+const EquationOfMotion = struct(class extends Tuple {
 constructor(name, equation, quantity, rate) {
 super();
 this.name = name;
@@ -2107,7 +2344,7 @@ yield mul(abs(arc.at(s).psi2), min(before, after));
 }
 }
 
-const GradientEquations = struct(class GradientEquations extends Tuple {
+const GradientEquations = struct(class extends Tuple {
 constructor(gradient, bellman) {
 super();
 this.gradient = gradient;
@@ -2116,7 +2353,7 @@ this.bellman = bellman;
 }
 }, ["gradient", "bellman"], 'GradientEquations');
 
-const Violation = struct(class Violation extends Tuple {
+const Violation = struct(class extends Tuple {
 constructor(value, bound) {
 super();
 this.value = value;
@@ -2157,7 +2394,7 @@ function inner(a, b) {
 return mul(conjugate_(a), b).real;
 }
 
-const Certificate = struct(class Certificate extends Values {
+const Certificate = struct(class extends Values {
 constructor(maneuver, lam, psi, choice, switches, residuals, others, pieces, tie_s, complete) {
 super();
 this.maneuver = maneuver;
@@ -2277,7 +2514,7 @@ yield* iter(gradient_residuals(formulation.gradient, trajectory, accuracy));
 yield conditions__comparison(trajectory, accuracy, others);
 }
 
-const Follower = struct(class Follower extends Values {
+const Follower = struct(class extends Values {
 constructor(orbit, aircraft, wind = null) {
 super();
 const self = this;
@@ -2321,7 +2558,7 @@ return Command(math.degrees(rate_at_bank(self._bank_deg, self.aircraft.airspeed_
 }
 }, []);
 
-const VectorField = struct(class VectorField extends Follower.kind {
+const VectorField = struct(class extends Follower.kind {
 constructor(orbit, aircraft, wind = null, gains = null) {
 super(orbit, aircraft, wind);
 let gain, name;
@@ -2343,7 +2580,7 @@ return Demand(right, demand_phase(right, offset, self._side));
 }
 }, []);
 
-const L1 = struct(class L1 extends Follower.kind {
+const L1 = struct(class extends Follower.kind {
 constructor(orbit, aircraft, wind = null, period_s = PERIOD_S, damping = DAMPING) {
 super(orbit, aircraft, wind);
 const self = this;
@@ -2369,7 +2606,7 @@ return ((truth(away) && gt(min(abs(nu), abs(self._nu)), AWAY_ANGLE) && lt(mul(nu
 }
 }, []);
 
-const Tangent = struct(class Tangent extends L1.kind {
+const Tangent = struct(class extends L1.kind {
 constructor(orbit, aircraft, wind = null, reserve = RESERVE, lead_s = 0.0, period_s = SHORTEST_PERIOD_S, damping = DAMPING) {
 super(orbit, aircraft, wind, period_s, damping);
 let wider;
@@ -2486,7 +2723,7 @@ return Demand(progress.right_m_s2, phase_of_control(current.u), to_join_s, next_
 }
 }, []);
 
-const Kinematic = struct(class Kinematic extends Values {
+const Kinematic = struct(class extends Values {
 constructor(start, aircraft, wind = null) {
 super();
 const self = this;
@@ -2518,7 +2755,7 @@ self._time_s = add(self._time_s, dt);
 }
 }, []);
 
-const SettlingMonitor = struct(class SettlingMonitor extends Values {
+const SettlingMonitor = struct(class extends Values {
 constructor(orbit, band) {
 super();
 const self = this;
@@ -2587,7 +2824,7 @@ return next(list(iter(self._directions)).filter((direction) => truth(self._band.
 }
 }, []);
 
-const Band = struct(class Band extends Values {
+const Band = struct(class extends Values {
 constructor(radial = 0.05, course_deg = 5.0) {
 super();
 this.radial = radial;
@@ -2610,6 +2847,163 @@ near = le(abs(outside_m), mul(mul(factor, self.radial), radius_m));
 return and(near, () => le(abs(course_error_deg), mul(factor, self.course_deg)));
 }
 }, ["radial", "course_deg"], 'Band');
+
+function clear_entry(fence, pose, orbit, aircraft, wind = null, margin_m = null) {
+let best, blocking, enough_m, fastest_m_s, found, known, later_s, least_s, problem;
+arrays.unchecked("fence", fence, Fence);
+problem = Problem(pose, orbit, aircraft, ((wind == null) ? CALM : wind));
+margin_m = ((margin_m == null) ? default_margin_m(orbit) : not_negative("margin_m", margin_m, "metres"));
+known = extremals(problem);
+found = first_clear(fence, known, margin_m);
+if ((truth(found.is_fastest) || truth(orbit.moves))) {
+return found;
+}
+if (truth((blocking = zones_on_circle(fence, item(known, 0), margin_m)))) {
+return replace(found, { blocking: blocking, least_s: math.inf });
+}
+fastest_m_s = add(aircraft.airspeed_m_s, problem.wind.speed_m_s);
+least_s = max(item(known, 0).duration_s, div(arrays.no_length(fence, problem, margin_m), fastest_m_s));
+enough_m = add(item(known, 0).length_m, mul(LATE, aircraft.turn_radius_m));
+best = (lt(least_s, math.inf) ? _Search(fence, problem, margin_m).fastest(found.maneuver, enough_m) : null);
+if ((best == null)) {
+return replace(found, { searched: true, least_s: least_s });
+}
+later_s = sub(best.duration_s, item(known, 0).duration_s);
+return replace(found, { maneuver: best, check: fence.check(best, margin_m), later_s: later_s, searched: true, least_s: least_s });
+}
+
+function default_margin_m(orbit) {
+arrays.unchecked("orbit", orbit, Orbit);
+return max(LEAST_MARGIN_M, mul(MARGIN_SHARE, orbit.radius_m));
+}
+
+function flown_path(flown) {
+let maneuver, rows_;
+
+maneuver = (truth(isinstance(flown, arrays.Absent)) ? flown.entry : flown);
+rows_ = list(iter(maneuver.segments)).map((segment) => _segment_row(segment, maneuver));
+append_(rows_, (truth(maneuver.orbit.moves) ? _moving_hold_row(maneuver) : _hold_row(maneuver)));
+if (truth(isinstance(flown, arrays.Absent))) {
+append_(rows_, _way_out_row(flown));
+}
+return FlownPath(Pieces(...iter(np.array(rows_, float).T)), len(maneuver.segments), maneuver.duration_s);
+}
+
+function _check_start(fence, start) {
+let distance_m, distances, zone, zones;
+for ([zones, distances] of rows(zip(_by_kind(fence), fence.signed_distances(start.east_m, start.north_m)))) {
+for ([zone, distance_m] of rows(zip(zones, tolist_(distances)))) {
+if (lt(distance_m, neg(TOUCH_M))) {
+throw errors.InvalidArgument("pose", _wrong_side(zone));
+}
+}
+}
+}
+
+function _by_kind(fence) {
+return [fence.polygons, fence.circle_zones];
+}
+
+function approach(fence, pieces, margin_m) {
+let bent, circles, j, parts, polygons, zones;
+
+[polygons, circles] = iter([Closest.none(len(fence.polygons)), Closest.none(len(fence.circle_zones))]);
+bent = item(pieces.bent.nonzero(), 0);
+if (truth(fence.polygons)) {
+if (truth(bent.size)) {
+_note_arcs_to_edges(polygons, pieces, bent, fence.edges);
+}
+[parts, j] = iter(_near_edges(polygons, pieces, fence.edges, margin_m));
+search__search(polygons, pieces, parts, j, _edge_bounds(fence.edges), fence.edges.zone, margin_m, true);
+}
+if (truth(fence.circle_zones)) {
+if (truth(bent.size)) {
+_note_arcs_to_circles(circles, pieces, bent, fence.circles);
+}
+zones = np.arange(len(fence.circle_zones));
+[parts, j] = iter(_pairs(first_parts(pieces, item(invert(pieces.bent).nonzero(), 0)), zones.size));
+search__search(circles, pieces, parts, j, _circle_bounds(fence.circles), zones, margin_m, false);
+}
+return [polygons, circles];
+}
+
+const PlaceInPath = struct(class extends Tuple {
+constructor(distance, piece, time_s) {
+super();
+this.distance = distance;
+this.piece = piece;
+this.time_s = time_s;
+
+}
+}, ["distance", "piece", "time_s"], 'PlaceInPath');
+
+function _breach(zone, near, path, maneuver) {
+let deepest, entry, place;
+if (gt(near.distance, TOUCH_M)) {
+return _at(zone, near.distance, near, path, maneuver);
+}
+entry = first_entry(path.pieces, zone);
+deepest = (truth(isinstance(zone, CircleZone)) ? near : least_distance(path.pieces, zone));
+place = (le(entry.distance, TOUCH_M) ? entry : deepest);
+return _at(zone, deepest.distance, place, path, maneuver);
+}
+
+function _at(zone, clearance_m, place, path, maneuver) {
+let flown_rad, holding, pieces, time_s, x, y;
+pieces = path.pieces;
+[x, y] = iter(pieces.take(place.piece).position(place.time_s));
+holding = eq(place.piece, path.hold);
+time_s = add(float(item(pieces.start_s, place.piece)), place.time_s);
+if ((truth(holding) && !truth(maneuver.orbit.moves))) {
+flown_rad = float(div(mul(place.time_s, item(pieces.speed, place.piece)), item(pieces.radius, place.piece)));
+time_s = add(path.hold_s, time_in_hold(maneuver, flown_rad));
+}
+return Breach(zone, clearance_m, float(x), float(y), time_s, holding);
+}
+
+const FenceCheck = struct(class extends Tuple {
+constructor(margin_m, closest, breaches, decimals = 1) {
+super();
+this.margin_m = margin_m;
+this.closest = closest;
+this.breaches = breaches;
+this.decimals = decimals;
+
+}
+get clear() {
+const self = this;
+return !truth(self.breaches);
+}
+get clearance_m() {
+const self = this;
+return self.closest.clearance_m;
+}
+sentence(frame = null) {
+const self = this;
+return (truth(self.clear) ? _clear_sentence(self, frame) : _breach_sentence(self, frame));
+}
+to_dict(frame = null) {
+const self = this;
+return new Map([["clear", self.clear], ["margin_m", self.margin_m], ["closest", _values(self.closest, frame)], ["breaches", list(iter(self.breaches)).map((breach) => _values(breach, frame))]]);
+}
+}, ["margin_m", "closest", "breaches", "decimals"], 'FenceCheck');
+
+const Edges = struct(class extends Tuple {
+constructor(ax, ay, bx, by, first, zone) {
+super();
+this.ax = ax;
+this.ay = ay;
+this.bx = bx;
+this.by = by;
+this.first = first;
+this.zone = zone;
+
+}
+take(i) {
+const self = this;
+return replace(self, { ax: item(self.ax, i), ay: item(self.ay, i), bx: item(self.bx, i), by: item(self.by, i), zone: item(self.zone, i) });
+}
+}, ["ax", "ay", "bx", "by", "first", "zone"], 'Edges');
 
 function _status(orbit, aircraft, air) {
 let R;
@@ -2652,7 +3046,7 @@ rate = div(mul(mul(aircraft.max_turn_rate_deg_s, r), tightest), orbit.radius_m);
 return `orbit radius ${format(orbit.radius_m, `g`)} m cannot be held in ${str(_air(orbit, mul(math.hypot(...iter(air)), V)))} at ${format(V, `.4g`)} m/s and ${str(limit)}: it needs ${format(mul(tightest, r), `.4g`)} m, or ${str(need)}`;
 }
 
-const Solved = struct(class Solved extends Tuple {
+const Solved = struct(class extends Tuple {
 constructor(maneuver, time) {
 super();
 this.maneuver = maneuver;
@@ -2696,7 +3090,7 @@ function maneuver__segment(segment, pose) {
 return new Map([["letter", segment.letter], ["start_s", segment.start_s], ["duration_s", segment.duration_s], ["length_m", segment.length_m], ["curvature_per_m", segment.curvature_per_m], ["start", pose(segment.start)], ["end", pose(segment.end)]]);
 }
 
-const Candidate = struct(class Candidate extends Values {
+const Candidate = struct(class extends Values {
 constructor(word, turn, duration_s, later_s) {
 super();
 this.word = word;
@@ -2738,7 +3132,7 @@ throw errors.InvalidArgument("maneuver", `has durations ${str(seconds)}: they mu
 return durations;
 }
 
-const Trajectory = struct(class Trajectory extends Values {
+const Trajectory = struct(class extends Values {
 constructor(maneuver, problem, start, lam, pieces) {
 super();
 this.maneuver = maneuver;
@@ -2900,7 +3294,7 @@ value = (((residual.value != null) && truth(math.isfinite(residual.value))) ? re
 return bit_or(asdict(residual), new Map([["value", value], ["verdict", residual.verdict]]));
 }
 
-const Switch = struct(class Switch extends Values {
+const Switch = struct(class extends Values {
 constructor(time_s, letters, x, y, psi1, psi2) {
 super();
 this.time_s = time_s;
@@ -2937,7 +3331,7 @@ yield Residual(motion.name, motion.equation, off, bound);
 }
 }
 
-const Residual = struct(class Residual extends Values {
+const Residual = struct(class extends Values {
 constructor(name, equation, value, bound, note = "") {
 super();
 this.name = name;
@@ -3003,7 +3397,7 @@ size = add(add(add(add(position, angles), abs(velocity_east)), abs(velocity_nort
 return (lt(abs(time_s), LATEST_S) && lt(size, LARGEST_VALUE));
 }
 
-const Demand = struct(class Demand extends Tuple {
+const Demand = struct(class extends Tuple {
 constructor(right_m_s2, phase, time_to_join_s = math.nan, next_phase = Phase.HOLD, next_in_s = math.nan) {
 super();
 this.right_m_s2 = right_m_s2;
@@ -3035,7 +3429,7 @@ return fastest(problem);
 return best;
 }
 
-const Command = struct(class Command extends Tuple {
+const Command = struct(class extends Tuple {
 constructor(turn_rate_deg_s, bank_deg, phase, time_to_join_s, turn, next_phase, next_in_s) {
 super();
 this.turn_rate_deg_s = turn_rate_deg_s;
@@ -3098,7 +3492,7 @@ kappa = div(aircraft.airspeed_m_s, aircraft.turn_radius_m);
 return FieldGains(largest_k(div(orbit.radius_m, aircraft.turn_radius_m)), kappa, mul(mul(kappa, 3.0), roll_time_s));
 }
 
-const FieldGains = struct(class FieldGains extends Tuple {
+const FieldGains = struct(class extends Tuple {
 constructor(k, kappa, epsilon) {
 super();
 this.k = k;
@@ -3117,7 +3511,7 @@ error = math.remainder(sub(sub(math.atan2(forward, offset.outward_m_s), mul(0.5,
 return mul(side, sub(desired, mul(gains.kappa, clip(div(error, gains.epsilon), 1.0))));
 }
 
-const DubinsPiece = struct(class DubinsPiece extends Tuple {
+const DubinsPiece = struct(class extends Tuple {
 constructor(u, length_m, east_m, north_m, c, s) {
 super();
 this.u = u;
@@ -3144,7 +3538,7 @@ clockwise = sub(mul(velocity_east, out_north), mul(velocity_north, out_east));
 return CircleOffset(radius_m, distance, out_east, out_north, outward, clockwise);
 }
 
-const PieceProgress = struct(class PieceProgress extends Tuple {
+const PieceProgress = struct(class extends Tuple {
 constructor(along_m, crosstrack_m, right_m_s2) {
 super();
 this.along_m = along_m;
@@ -3158,7 +3552,7 @@ function phase_of_control(control) {
 return ((control == null) ? Phase.HOLD : item(PHASES, control));
 }
 
-const PlanarPose = struct(class PlanarPose extends Tuple {
+const PlanarPose = struct(class extends Tuple {
 constructor(x, y, c, s) {
 super();
 this.x = x;
@@ -3169,7 +3563,7 @@ this.s = s;
 }
 }, ["x", "y", "c", "s"], 'PlanarPose');
 
-const State = struct(class State extends Tuple {
+const State = struct(class extends Tuple {
 constructor(time_s, east_m, north_m, heading_deg, bank_deg, velocity_east_m_s, velocity_north_m_s, airspeed_m_s) {
 super();
 this.time_s = time_s;
@@ -3198,6 +3592,450 @@ chord = mul(div(mul(2.0, speed), rate), sh);
 return PlanarPose(add(x, mul(chord, c)), add(y, mul(chord, s)), sub(mul(c, ch), mul(s, sh)), add(mul(s, ch), mul(c, sh)));
 }
 
+function first_clear(fence, maneuvers, margin_m = null) {
+let blocking, found, later_s, maneuver, ordered, tried;
+arrays.unchecked("fence", fence, Fence);
+ordered = sorted(maneuvers, { key: ((maneuver) => maneuver.duration_s) });
+if (!truth(ordered)) {
+throw errors.InvalidArgument("maneuvers", "has none to choose from");
+}
+blocking = new Map([]);
+for ([tried, maneuver] of rows(enumerate(ordered, { start: 1 }))) {
+found = fence.check(maneuver, margin_m);
+if (truth(found.clear)) {
+later_s = sub(maneuver.duration_s, item(ordered, 0).duration_s);
+return ClearEntry(maneuver, found, later_s, tried, tuple(blocking), item(ordered, 0).duration_s);
+}
+set_item(blocking, item(found.breaches, 0).zone.name, null);
+}
+return ClearEntry(null, null, math.nan, len(ordered), tuple(blocking), item(ordered, 0).duration_s);
+}
+
+function zones_on_circle(fence, maneuver, margin_m) {
+let closest, hold, names, near, path, side, sides, zones;
+path = flown_path(maneuver);
+hold = path.pieces.take([path.hold]);
+sides = fence.signed_distances(float(item(hold.x, 0)), float(item(hold.y, 0)));
+names = [];
+for ([zones, closest, side] of rows(zip(_by_kind(fence), approach(fence, hold, margin_m), sides))) {
+near = bit_or(le(closest.distance, add(margin_m, TOUCH_M)), lt(side, 0.0));
+names = add(names, list(iter(zip(zones, near))).map((one) => iter(one)).filter(([zone, is_near]) => truth(is_near)).map(([zone, is_near]) => zone.name));
+}
+return tuple(names);
+}
+
+const _Search = struct(class extends Values {
+constructor(fence, problem, margin_m) {
+super();
+let c, clearance_m, gap_m, s, share;
+const self = this;
+gap_m = (truth(problem.still) ? STILL_AIR_GAP_M : WIND_GAP_M);
+[self._fence, self._problem, self._margin_m] = iter([fence, problem, margin_m]);
+self._curves = curves_of(fence, problem.orbit, add(margin_m, gap_m));
+self._touching = len(self._curves);
+for (share of iter((truth(problem.still) ? [] : WIDER))) {
+clearance_m = add(add(margin_m, gap_m), mul(share, problem.aircraft.turn_radius_m));
+self._curves = add(self._curves, list(iter(curves_of(fence, problem.orbit, clearance_m))).filter((curve) => !truth(curve.joined)).map((curve) => curve));
+}
+self._air = (truth(problem.still) ? StillAir(fence, problem, margin_m, self._curves) : SteadyWind(fence, problem, margin_m));
+[c, s] = iter(heading_vector(problem.pose.heading_deg));
+self._start = Pose2(problem.pose.east_m, problem.pose.north_m, math.atan2(s, c));
+}
+fastest(known, enough_m) {
+let best, faster, maneuver, search;
+const self = this;
+best = known;
+for (search of iter(PASSES)) {
+for (maneuver of iter(self._maneuvers(search, ((best == null) ? math.inf : best.length_m)))) {
+faster = ((best == null) || lt(maneuver.duration_s, best.duration_s));
+if ((truth(faster) && truth(self._fence.check(maneuver, self._margin_m).clear))) {
+best = maneuver;
+}
+}
+if (((best != null) && lt(best.length_m, enough_m))) {
+break;
+}
+}
+return best;
+}
+*_maneuvers(search, most_m) {
+let chain, curves, r, refined, rows_;
+const self = this;
+r = self._problem.aircraft.turn_radius_m;
+refined = (truth(self._problem.still) ? search : 1);
+curves = (gt(search, 1) ? self._curves : sliced(self._curves, null, self._touching, null));
+rows_ = [...iter(rows_on(curves, r, refined)), ...iter(rows_without_straight(curves, ...iter(self._start), r))];
+rows_ = add(rows_, rows_on_tangents(curves, ...iter(self._start), r));
+for (chain of iter(self._chains(placed(self._curves, rows_), add(most_m, mul(SLACK, r)), mul(SLACK, r), MOST_CHAINS))) {
+yield self._maneuver(self._moved(chain, refined));
+}
+}
+_chains(contacts, most_m, slack_m, most) {
+let allowed, clear, poses;
+const self = this;
+clear = clear_points(self._fence, contacts.x, contacts.y, self._margin_m);
+allowed = contacts.take(item(clear.nonzero(), 0));
+poses = (truth(self._problem.still) ? MOST_POSES : MOST_POSES_IN_WIND);
+return ChainSearch(self._air, self._start, allowed, most_m, poses).chains(slack_m, most);
+}
+_moved(chain, refined) {
+let k, near, rows_;
+const self = this;
+for (k of iter(range(1, add(HALVINGS, 1)))) {
+rows_ = set_of(list(iter(range(len(chain.paths)))).flatMap((path) => list(iter(self._rows_near(chain, path, pow(0.5, k), refined))).map((row) => row)));
+near = placed(self._curves, sorted(rows_));
+chain = next(iter(self._chains(near, chain.length_m, 0.0, 1)), chain);
+}
+return self._tangent(chain);
+}
+_tangent(chain) {
+let _, found, i, k, move, paths, r, rows_, share, tangent, way;
+const self = this;
+[r, tangent] = iter([self._problem.aircraft.turn_radius_m, chain]);
+for (_ of iter(range(TANGENT_STEPS))) {
+[rows_, paths] = iter([[], tangent.paths]);
+for ([k, [i, share, way]] of rows(enumerate(rows_of(tangent.contacts)))) {
+move = 0.0;
+if ((lt(add(k, 1), len(paths)) && gt(item(item(paths, add(k, 1)), 0).radius_m, r))) {
+move = neg(_turned(item(item(paths, k), 2)));
+} else {
+if ((lt(add(k, 1), len(paths)) && gt(item(item(paths, k), 0).radius_m, r))) {
+move = _turned(item(item(paths, add(k, 1)), 0));
+}
+}
+append_(rows_, [i, beside(item(self._curves, i), share, div(move, or(item(self._curves, i).width, () => math.inf))), way]);
+}
+found = self._chains(placed(self._curves, rows_), math.inf, 0.0, 1);
+if ((!truth(found) || ne(len(item(found, 0).paths), len(paths)))) {
+return chain;
+}
+tangent = item(found, 0);
+}
+return (lt(tangent.length_m, chain.length_m) ? tangent : chain);
+}
+*_rows_near(chain, k, step, refined) {
+let curve, i, moves, share, way, width;
+const self = this;
+[i, share, way] = iter(item(rows_of(chain.contacts), k));
+curve = item(self._curves, i);
+width = div(step, curve.steps(self._problem.aircraft.turn_radius_m, refined));
+moves = list(iter([-2, -1, 0, 1, 2])).map((m) => mul(m, width));
+yield* iter(list(iter(moves)).map((move) => [i, beside(curve, share, move), way]));
+}
+_maneuver(chain) {
+let control, here, length_m, miss_m, now, problem, radius_m, segments, turn;
+const self = this;
+problem = self._problem;
+segments = [];
+[here, now] = iter([problem.pose, 0.0]);
+for ([control, length_m, radius_m] of rows(_merged(chain))) {
+append_(segments, segment(here, now, item(clear_entry_LETTERS, control), length_m, problem.aircraft, problem.wind, radius_m));
+[here, now] = iter([item(segments, -1).end, add(now, item(segments, -1).duration_s)]);
+}
+turn = (gt(item(chain.contacts.way, -1), 0) ? Turn.CCW : Turn.CW);
+miss_m = abs(sub(problem.orbit.distance_m(here), problem.orbit.radius_m));
+return Maneuver(problem.pose, problem.orbit, problem.aircraft, turn, tuple(segments), miss_m, problem.wind);
+}
+}, []);
+
+function _segment_row(segment, maneuver) {
+let c, motion, s, start, uav;
+[c, s] = iter(heading_vector(segment.start.heading_deg));
+[uav, start] = iter([maneuver.aircraft, segment.start]);
+motion = [item(CONTROLS, segment.letter), radius_of(segment, uav), uav.airspeed_m_s, ...iter(maneuver.wind.velocity_m_s)];
+return [segment.start_s, segment.duration_s, start.east_m, start.north_m, c, s, ...iter(motion), 0.0];
+}
+
+function _moving_hold_row(maneuver) {
+let R, V, circle, east, motion, north, slowest, speed;
+circle = maneuver.orbit_at_join;
+[V, R] = iter([maneuver.aircraft.airspeed_m_s, circle.radius_m]);
+slowest = mul(V, sub(1.0, math.hypot(...iter(relative_wind(maneuver.orbit, maneuver.aircraft, maneuver.wind)))));
+[east, north] = iter([circle.velocity_east_m_s, circle.velocity_north_m_s]);
+speed = math.hypot(east, north);
+motion = [div(east, speed), div(north, speed), 0.0, R, speed, 0.0, 0.0];
+return [maneuver.duration_s, div(mul(mul(2.0, math.pi), R), slowest), circle.east_m, circle.north_m, ...iter(motion), R];
+}
+
+function _hold_row(maneuver) {
+let R, azimuth, circle, join, nx, ny, place, speed, u;
+[circle, join] = iter([maneuver.orbit, maneuver.join]);
+azimuth = math.atan2(sub(join.north_m, circle.north_m), sub(join.east_m, circle.east_m));
+[u, speed, R] = iter([neg(float(sign_of(maneuver.turn))), maneuver.aircraft.airspeed_m_s, circle.radius_m]);
+[nx, ny] = iter([math.cos(azimuth), math.sin(azimuth)]);
+place = [add(circle.east_m, mul(R, nx)), add(circle.north_m, mul(R, ny))];
+return [maneuver.duration_s, div(mul(mul(2.0, math.pi), R), speed), ...iter(place), mul(neg(u), ny), mul(u, nx), u, R, speed, 0.0, 0.0, 0.0];
+}
+
+function _way_out_row(leg) {
+let c, motion, place, s, uav;
+[c, s] = iter(heading_vector(leg.exit.heading_deg));
+[uav, place] = iter([leg.entry.aircraft, [leg.exit.east_m, leg.exit.north_m]]);
+motion = [0.0, uav.turn_radius_m, uav.airspeed_m_s, ...iter(leg.entry.wind.velocity_m_s)];
+return [leg.exit_s, leg.straight_s, ...iter(place), c, s, ...iter(motion), 0.0];
+}
+
+const FlownPath = struct(class extends Tuple {
+constructor(pieces, hold, hold_s) {
+super();
+this.pieces = pieces;
+this.hold = hold;
+this.hold_s = hold_s;
+
+}
+}, ["pieces", "hold", "hold_s"], 'FlownPath');
+
+const Pieces = struct(class extends Tuple {
+constructor(start_s, duration_s, x, y, c, s, u, radius, speed, wx, wy, widen) {
+super();
+this.start_s = start_s;
+this.duration_s = duration_s;
+this.x = x;
+this.y = y;
+this.c = c;
+this.s = s;
+this.u = u;
+this.radius = radius;
+this.speed = speed;
+this.wx = wx;
+this.wy = wy;
+this.widen = widen;
+
+}
+take(i) {
+const self = this;
+return Pieces(...iter(list(iter(self)).map((column) => item(column, i))));
+}
+position(time_s) {
+let angle, ch, chord, half, sh, x;
+const self = this;
+
+angle = div(mul(time_s, self.speed), self.radius);
+half = mul(mul(0.5, self.u), angle);
+chord = mul(self.radius, np.where(eq(self.u, 0.0), angle, mul(2.0, np.sin(mul(0.5, angle)))));
+[ch, sh] = iter([np.cos(half), np.sin(half)]);
+x = add(add(self.x, mul(chord, sub(mul(self.c, ch), mul(self.s, sh)))), mul(self.wx, time_s));
+return [x, add(add(self.y, mul(chord, add(mul(self.s, ch), mul(self.c, sh)))), mul(self.wy, time_s))];
+}
+get acceleration() {
+const self = this;
+return div(mul(abs(self.u), pow(self.speed, 2)), self.radius);
+}
+get bent() {
+const self = this;
+return bit_and(bit_and(ne(self.u, 0.0), eq(self.wx, 0.0)), eq(self.wy, 0.0));
+}
+}, ["start_s", "duration_s", "x", "y", "c", "s", "u", "radius", "speed", "wx", "wy", "widen"], 'Pieces');
+
+function _wrong_side(zone) {
+if (truth(zone.inclusion)) {
+return `is outside the inclusion zone ${repr(zone.name)}: a plan must begin inside`;
+}
+return `is inside the zone ${repr(zone.name)}: a plan must begin outside`;
+}
+
+const Closest = struct(class extends Tuple {
+constructor(distance, piece, time_s) {
+super();
+this.distance = distance;
+this.piece = piece;
+this.time_s = time_s;
+
+}
+static none(cls, count) {
+
+return cls(np.full(count, np.inf), np.zeros(count, np.intp), np.zeros(count));
+}
+note(zone, distance, piece, time_s) {
+let best;
+const self = this;
+
+np.minimum.at(self.distance, zone, distance);
+best = eq(distance, item(self.distance, zone));
+const unpacked1 = iter([item(piece, best), item(time_s, best)]);
+set_item(self.piece, item(zone, best), unpacked1[0]);
+set_item(self.time_s, item(zone, best), unpacked1[1]);
+}
+}, ["distance", "piece", "time_s"], 'Closest');
+
+function _note_arcs_to_edges(closest, pieces, bent, edges) {
+let found;
+found = arc_to_edge(arcs_of(pieces.take(bent)), edges);
+_note(closest, found.distance, found.share, pieces, bent, edges.zone);
+}
+
+function _near_edges(closest, pieces, edges, margin_m) {
+let at, chords, half, keep, middle, parts, piece, upper, x, y, zone;
+
+parts = first_parts(pieces, item(invert(pieces.bent).nonzero(), 0));
+[chords, zone] = iter([Chords.of(pieces, parts), np.broadcast_to(edges.zone, [parts.piece.size, edges.zone.size])]);
+[x, y] = iter([mul(0.5, item(add(chords.ax, chords.bx), [slice(null, null), null])), mul(0.5, item(add(chords.ay, chords.by), [slice(null, null), null]))]);
+middle = sub(to_edge(x, y, edges), item(chords.widen, [slice(null, null), null]));
+half = add(mul(0.5, np.hypot(sub(chords.bx, chords.ax), sub(chords.by, chords.ay))), chords.off);
+[upper, at] = iter([add(middle, item(chords.off, [slice(null, null), null])), np.broadcast_to(mul(0.5, item(add(parts.a, parts.b), [slice(null, null), null])), zone.shape)]);
+piece = np.broadcast_to(item(parts.piece, [slice(null, null), null]), zone.shape);
+closest.note(zone.ravel(), upper.ravel(), piece.ravel(), at.ravel());
+keep = _undecided(closest, sub(middle, item(half, [slice(null, null), null])).ravel(), zone.ravel(), margin_m, true);
+return [parts.take(floordiv(keep, edges.zone.size)), mod(keep, edges.zone.size)];
+}
+
+function search__search(closest, pieces, parts, j, bounds, zone, margin_m, unsigned) {
+let _, found, keep;
+
+for (_ of iter(range(MOST_LEVELS))) {
+if (!truth(parts.piece.size)) {
+return;
+}
+found = bounds(Chords.of(pieces, parts), parts, j);
+closest.note(item(zone, j), found.upper, parts.piece, found.at);
+keep = _undecided(closest, found.lower, item(zone, j), margin_m, unsigned);
+[parts, j] = iter([parts.take(keep).split(), np.repeat(item(j, keep), SPLIT)]);
+}
+}
+
+function _edge_bounds(edges) {
+let bounds;
+bounds = function (chords, parts, j) {
+let found;
+found = chord_to_edge(chords.ax, chords.ay, chords.bx, chords.by, edges.take(j)).nearest;
+return _around(found, chords, parts);
+};
+return bounds;
+}
+
+function _note_arcs_to_circles(closest, pieces, bent, circles) {
+let distance, largest, least, outside;
+
+[least, largest] = iter(arc_to_point(arcs_of(pieces.take(bent)), circles.x, circles.y));
+outside = gt(circles.sign, 0.0);
+distance = mul(circles.sign, sub(np.where(outside, least.distance, largest.distance), circles.radius));
+_note(closest, distance, np.where(outside, least.share, largest.share), pieces, bent, np.arange(circles.x.size));
+}
+
+function _pairs(parts, count) {
+let n;
+
+n = parts.piece.size;
+return [parts.take(np.repeat(np.arange(n), count)), np.tile(np.arange(count), n)];
+}
+
+function first_parts(pieces, chosen) {
+let angle, counts, k, piece, width;
+
+angle = div(mul(mul(abs(pieces.u), pieces.speed), pieces.duration_s), pieces.radius);
+counts = item(np.maximum(1, np.ceil(div(angle, FIRST_PART_RAD))).astype(np.intp), chosen);
+piece = np.repeat(chosen, counts);
+k = sub(np.arange(piece.size), np.repeat(sub(np.cumsum(counts), counts), counts));
+width = div(item(pieces.duration_s, piece), np.repeat(counts, counts));
+return Parts(piece, mul(k, width), mul(add(k, 1), width));
+}
+
+function _circle_bounds(circles) {
+let bounds;
+
+bounds = function (chords, parts, j) {
+let each, far, found, from_a, from_b, near, outside, shift, x, y;
+[x, y] = iter([item(circles.x, j), item(circles.y, j)]);
+near = chord_to_point(chords.ax, chords.ay, chords.bx, chords.by, x, y);
+[from_a, from_b] = iter([np.hypot(sub(chords.ax, x), sub(chords.ay, y)), np.hypot(sub(chords.bx, x), sub(chords.by, y))]);
+far = Nearest(neg(np.maximum(from_a, from_b)), np.where(gt(from_a, from_b), 0.0, 1.0));
+outside = gt(item(circles.sign, j), 0.0);
+each = Nearest(np.where(outside, near.distance, far.distance), np.where(outside, near.share, far.share));
+found = _around(each, chords, parts);
+shift = mul(item(circles.sign, j), item(circles.radius, j));
+return Bounds(sub(found.lower, shift), sub(found.upper, shift), found.at);
+};
+return bounds;
+}
+
+function first_entry(pieces, zone) {
+let entry, searched, simple, until_s;
+
+simple = bit_and(bit_or(eq(pieces.u, 0.0), pieces.bent), eq(pieces.widen, 0.0));
+entry = _first_touch(pieces, simple, zone);
+until_s = (lt(entry.distance, np.inf) ? add(item(pieces.start_s, entry.piece), entry.time_s) : np.inf);
+searched = item(bit_and(invert(simple), lt(pieces.start_s, until_s)).nonzero(), 0);
+return (truth(searched.size) ? _searched_entry(pieces, searched, zone, entry, until_s) : entry);
+}
+
+function least_distance(pieces, zone) {
+let _, best, found, i, parts, signed;
+
+[signed, parts] = iter([Signed(zone), first_parts(pieces, np.arange(pieces.x.size))]);
+best = PlaceInPath(np.inf, 0, 0.0);
+for (_ of iter(range(MOST_LEVELS))) {
+found = signed.bounds(Chords.of(pieces, parts), parts);
+i = int(found.upper.argmin());
+if (lt(item(found.upper, i), best.distance)) {
+best = PlaceInPath(float(item(found.upper, i)), int(item(parts.piece, i)), float(item(found.at, i)));
+}
+parts = parts.take(item(lt(found.lower, sub(best.distance, RESOLUTION_M)).nonzero(), 0));
+if (!truth(parts.piece.size)) {
+break;
+}
+parts = parts.split();
+}
+return best;
+}
+
+function time_in_hold(maneuver, flown_rad) {
+let begin, circle, held, join, side, uav, wx, wy;
+[circle, join, uav, side] = iter([maneuver.orbit, maneuver.join, maneuver.aircraft, sign_of(maneuver.turn)]);
+[wx, wy] = iter(relative_wind(circle, uav, maneuver.wind));
+begin = kernel.phase_of(sub(join.east_m, circle.east_m), sub(join.north_m, circle.north_m), side, wx, wy);
+held = kernel.time_held(add(begin, flown_rad), flown_rad, radius_in_turns(circle, uav), wx, wy);
+return div(mul(held, uav.turn_radius_m), uav.airspeed_m_s);
+}
+
+const Breach = struct(class extends Tuple {
+constructor(zone, clearance_m, east_m, north_m, time_s, holding) {
+super();
+this.zone = zone;
+this.clearance_m = clearance_m;
+this.east_m = east_m;
+this.north_m = north_m;
+this.time_s = time_s;
+this.holding = holding;
+
+}
+get enters() {
+const self = this;
+return le(self.clearance_m, TOUCH_M);
+}
+}, ["zone", "clearance_m", "east_m", "north_m", "time_s", "holding"], 'Breach');
+
+function _clear_sentence(found, frame) {
+let near, where;
+near = found.closest;
+where = `at ${str(fence_check__place(near, frame, found.decimals))}`;
+return `The plan and its hold stay clear of the fence, ${format(near.clearance_m, `.${String(found.decimals)}f`)} m from ${str(_named(near.zone))} at least, ${str(where)}.`;
+}
+
+function _breach_sentence(found, frame) {
+let d, depth, does, first, more, near, others, where;
+[first, ...others] = iter(found.breaches);
+d = found.decimals;
+where = `${str((truth(first.holding) ? "on the circle, " : ""))}in ${format(first.time_s, `.${String(d)}f`)} s, at ${str(fence_check__place(first, frame, d))}`;
+more = (truth(others) ? `; ${str(_and_others(others))}` : "");
+if (!truth(first.enters)) {
+near = `comes within ${format(first.clearance_m, `.${String(d)}f`)} m of ${str(_named(first.zone))} ${str(where)}`;
+return `The plan ${str(near)}, less than the margin of ${format(found.margin_m, `g`)} m${str(more)}.`;
+}
+does = (truth(first.zone.inclusion) ? "leaves" : "enters");
+depth = (lt(first.clearance_m, neg(TOUCH_M)) ? `by up to ${format(max(0.0, neg(first.clearance_m)), `.${String(d)}f`)} m` : "where it touches it");
+return `The plan ${str(does)} ${str(_named(first.zone))} ${str(where)}, ${str(depth)}${str(more)}.`;
+}
+
+function _values(breach, frame) {
+let place, values;
+values = new Map([["zone", breach.zone.name], ["inclusion", breach.zone.inclusion], ["clearance_m", breach.clearance_m], ["enters", breach.enters], ["time_s", breach.time_s], ["holding", breach.holding], ["east_m", breach.east_m], ["north_m", breach.north_m]]);
+if ((frame == null)) {
+return values;
+}
+place = frame.place(Pose(breach.east_m, breach.north_m, 0.0));
+return bit_or(values, new Map([["latitude_deg", place.latitude_deg], ["longitude_deg", place.longitude_deg]]));
+}
+
 function segment(start, start_s, letter, length_m, aircraft, wind, radius_m) {
 let end, u;
 u = item(CONTROLS, letter);
@@ -3205,7 +4043,7 @@ end = flown_from(start, u, length_m, aircraft, wind, radius_m);
 return Segment(letter, start_s, div(length_m, aircraft.airspeed_m_s), length_m, div(u, radius_m), start, end);
 }
 
-const RelativeStart = struct(class RelativeStart extends Tuple {
+const RelativeStart = struct(class extends Tuple {
 constructor(q, e, w, R, side) {
 super();
 this.q = q;
@@ -3225,7 +4063,7 @@ g = abs(over_ground);
 return div(mul(mul(neg(start.side), u), pow(g, 3)), mul(radius, inner(e, over_ground)));
 }
 
-const MaximumPrinciple = struct(class MaximumPrinciple extends Tuple {
+const MaximumPrinciple = struct(class extends Tuple {
 constructor(norm, multiplier, sign, hamiltonian, psi1, transversality) {
 super();
 this.norm = norm;
@@ -3298,7 +4136,7 @@ yield* iter(_of_single_arc(start, pieces));
 }
 }
 
-const FlightPlan = struct(class FlightPlan extends Tuple {
+const FlightPlan = struct(class extends Tuple {
 constructor(start, controls, durations, adjoint) {
 super();
 this.start = start;
@@ -3309,7 +4147,7 @@ this.adjoint = adjoint;
 }
 }, ["start", "controls", "durations", "adjoint"], 'FlightPlan');
 
-const FlownPiece = struct(class FlownPiece extends Tuple {
+const FlownPiece = struct(class extends Tuple {
 constructor(u, t, q, e, phi, p, w) {
 super();
 this.u = u;
@@ -3375,7 +4213,7 @@ middle = (truth(second.u) ? second.radius : 1.0);
 return mul(end, add(1.0, div(1.0, max(middle, length))));
 }
 
-const Accuracy = struct(class Accuracy extends Tuple {
+const Accuracy = struct(class extends Tuple {
 constructor(end, length, angle, beside, join, motion, maximum_principle, gradient, tie) {
 super();
 this.end = end;
@@ -3516,7 +4354,7 @@ k = mul(k, 0.98);
 return k;
 }
 
-const CircleOffset = struct(class CircleOffset extends Tuple {
+const CircleOffset = struct(class extends Tuple {
 constructor(radius_m, distance_m, out_east, out_north, outward_m_s, clockwise_m_s) {
 super();
 this.radius_m = radius_m;
@@ -3545,7 +4383,716 @@ return math.degrees(math.atan2(mul(neg(side), self.outward_m_s), mul(side, self.
 }
 }, ["radius_m", "distance_m", "out_east", "out_north", "outward_m_s", "clockwise_m_s"], 'CircleOffset');
 
-const Segment = struct(class Segment extends Values {
+const ClearEntry = struct(class extends Tuple {
+constructor(maneuver, check, later_s, tried, blocking, least_s = 0.0, searched = false) {
+super();
+this.maneuver = maneuver;
+this.check = check;
+this.later_s = later_s;
+this.tried = tried;
+this.blocking = blocking;
+this.least_s = least_s;
+this.searched = searched;
+
+}
+get is_fastest() {
+const self = this;
+return and(and((self.maneuver != null), () => eq(self.tried, 1)), () => !truth(self.searched));
+}
+get sentence() {
+let later, what;
+const self = this;
+if ((self.maneuver == null)) {
+return self._refusal;
+}
+if (truth(self.is_fastest)) {
+return "The fastest entry is clear.";
+}
+later = (ge(self.later_s, SAME_TIME_S) ? `joins ${format(self.later_s, `.1f`)} s later` : "is as fast");
+what = (truth(self.searched) ? "The fastest clear entry found" : "The first candidate that is clear");
+return `${str(what)} ${str(later)}: ${str(self.maneuver)}`;
+}
+get _refusal() {
+let zones;
+const self = this;
+zones = join_(" and ", map(repr, self.blocking));
+if (eq(self.least_s, math.inf)) {
+return `No entry is clear: ${str(zones)} blocks the circle itself, or every way to it.`;
+}
+if (truth(self.searched)) {
+return `No entry found: ${str(zones)} blocks here.`;
+}
+return `No entry found: of the ${str(self.tried)} candidates none is clear, ${str(zones)} blocks here.`;
+}
+}, ["maneuver", "check", "later_s", "tried", "blocking", "least_s", "searched"], 'ClearEntry');
+
+function curves_of(fence, orbit, clearance_m) {
+let circle, found, ways;
+found = list(iter(fence.zones)).flatMap((zone) => list(iter(_zone_curves(zone, clearance_m))).map((curve) => curve));
+ways = get_(new Map([[Turn.CW, [-1]], [Turn.CCW, [1]]]), orbit.turn, [1, -1]);
+circle = Curve(orbit.east_m, orbit.north_m, orbit.radius_m, 0.0, math.tau, 0.0, 0.0, ways, true);
+return [...iter(found), circle, replace(circle, { anywhere: true })];
+}
+
+const StillAir = struct(class extends Values {
+constructor(fence, problem, margin_m, curves) {
+super();
+const self = this;
+[self._fence, self._problem, self._margin_m, self._curves] = iter([fence, problem, margin_m, curves]);
+self._radius_m = problem.aircraft.turn_radius_m;
+}
+headings(contacts) {
+const self = this;
+return contacts.angle;
+}
+least_lengths(contacts, headings) {
+let c, dx, dy, least, orbit, r, radius, s;
+const self = this;
+
+[orbit, r] = iter([self._problem.orbit, self._radius_m]);
+[dx, dy, c, s] = iter([div(sub(contacts.x, orbit.east_m), r), div(sub(contacts.y, orbit.north_m), r), np.cos(headings), np.sin(headings)]);
+radius = max(self._problem.radius, 1.0);
+least = arrays.min_time(...iter(arrays.reduce_states(dx, dy, c, s)), radius, orbit.turn);
+return np.where(contacts.joined, 0.0, mul(mul(least, r), sub(1.0, ROUNDING)));
+}
+words(start, at, contacts, headings) {
+let found, placed, several;
+const self = this;
+placed = item(invert(contacts.anywhere).nonzero(), 0);
+found = words_between(...iter(start), item(contacts.x, placed), item(contacts.y, placed), item(headings, placed), self._radius_m);
+several = [replace(found, { to: item(placed, found.to) }), _onto_circle(self._entries(start), contacts, self._radius_m)];
+if (((at != null) && gt(item(self._curves, item(contacts.curve, at)).radius, self._radius_m))) {
+append_(several, self._along(at, contacts));
+}
+return Words.joined(several);
+}
+_entries(start) {
+let orbit, place, r, state;
+const self = this;
+[orbit, r] = iter([self._problem.orbit, self._radius_m]);
+place = [div(sub(start.x, orbit.east_m), r), div(sub(start.y, orbit.north_m), r)];
+state = arrays.reduce_states(...iter(place), math.cos(start.heading), math.sin(start.heading));
+return kernel.synthesis_ranked(...iter(state), kernel.rounded_radius(self._problem.radius), item(SIDES, orbit.turn), 0.0);
+}
+_along(at, contacts) {
+let curve, length, others, turned, way, zero;
+const self = this;
+
+[curve, way] = iter([item(self._curves, item(contacts.curve, at)), item(contacts.way, at)]);
+others = item(bit_and(eq(contacts.curve, item(contacts.curve, at)), eq(contacts.way, way)).nonzero(), 0);
+turned = mul(mul(sub(item(contacts.share, others), item(contacts.share, at)), way), curve.width);
+turned = (truth(curve.closed) ? np.mod(turned, math.tau) : turned);
+[others, turned] = iter([item(others, gt(turned, 0.0)), item(turned, gt(turned, 0.0))]);
+zero = np.zeros_like(turned);
+length = np.stack([mul(turned, curve.radius), zero, zero], { axis: -1 });
+return Words(others, np.full(length.shape, float(way)), length, np.full(length.shape, curve.radius));
+}
+are_clear(start, words) {
+let angle, arcs, bent, c, chord, clear, ends, half, heading, k, length, next_x, next_y, nx, ny, radius, s, straight, u, x, y;
+const self = this;
+
+clear = np.ones(words.to.size, bool);
+[x, y, heading] = iter(list(iter(start)).map((value) => np.full(words.to.size, value)));
+for (k of iter(range(3))) {
+[u, length, radius] = iter([item(words.control, [slice(null, null), k]), item(words.length, [slice(null, null), k]), item(words.radius, [slice(null, null), k])]);
+[c, s, angle] = iter([np.cos(heading), np.sin(heading), div(length, radius)]);
+half = mul(mul(0.5, u), angle);
+chord = np.where(eq(u, 0.0), length, mul(mul(2.0, radius), np.sin(mul(0.5, angle))));
+next_x = add(x, mul(chord, np.cos(add(heading, half))));
+next_y = add(y, mul(chord, np.sin(add(heading, half))));
+bent = item(bit_and(bit_and(clear, ne(u, 0.0)), gt(length, 0.0)).nonzero(), 0);
+if (truth(bent.size)) {
+[nx, ny] = iter([mul(u, s), mul(neg(u), c)]);
+arcs = [sub(x, mul(radius, nx)), sub(y, mul(radius, ny)), radius, nx, ny, u, angle];
+set_item(clear, bent, _clear_arcs(self._fence, Arcs(...iter(list(iter(arcs)).map((v) => item(v, [bent, null])))), self._margin_m));
+}
+straight = item(bit_and(bit_and(clear, eq(u, 0.0)), gt(length, 0.0)).nonzero(), 0);
+if (truth(straight.size)) {
+ends = list(iter([x, y, next_x, next_y])).map((v) => item(v, straight));
+set_item(clear, straight, _clear_chords(self._fence, ends, self._margin_m));
+}
+[x, y, heading] = iter([next_x, next_y, add(heading, mul(u, angle))]);
+}
+return clear;
+}
+}, []);
+
+const SteadyWind = struct(class extends Values {
+constructor(fence, problem, margin_m) {
+super();
+const self = this;
+[self._fence, self._problem, self._margin_m] = iter([fence, problem, margin_m]);
+self._radius_m = problem.aircraft.turn_radius_m;
+[self._wx, self._wy] = iter(problem.relative_wind);
+}
+headings(contacts) {
+let across;
+const self = this;
+
+across = sub(mul(self._wy, np.cos(contacts.angle)), mul(self._wx, np.sin(contacts.angle)));
+return sub(contacts.angle, np.arcsin(across));
+}
+least_lengths(contacts, headings) {
+let dx, dy, free, least, orbit, r;
+const self = this;
+
+[orbit, r] = iter([self._problem.orbit, self._radius_m]);
+[dx, dy] = iter([div(sub(contacts.x, orbit.east_m), r), div(sub(contacts.y, orbit.north_m), r)]);
+least = np.zeros(contacts.x.size);
+free = invert(contacts.joined);
+set_item(least, free, arrays.min_time_in_wind(item(dx, free), item(dy, free), item(headings, free), self._problem.radius, orbit.turn, self._wx, self._wy));
+return mul(mul(np.where(np.isfinite(least), least, 0.0), r), sub(1.0, 1e-09));
+}
+words(start, at, contacts, headings) {
+let angle, heading, i, nx, ny, path, phase, placed, places, r, rows_, scene, sx, sy, word, x, y;
+const self = this;
+[r, rows_] = iter([self._radius_m, []]);
+heading = [math.cos(start.heading), math.sin(start.heading)];
+placed = item(invert(contacts.anywhere).nonzero(), 0);
+places = zip(...iter(list(iter([contacts.x, contacts.y, contacts.angle])).map((v) => tolist_(item(v, placed)))));
+for ([i, [x, y, angle]] of rows(zip(tolist_(placed), places))) {
+[nx, ny] = iter([math.sin(angle), neg(math.cos(angle))]);
+[sx, sy] = iter([add(div(sub(start.x, x), r), nx), add(div(sub(start.y, y), r), ny)]);
+scene = WindScene(sx, sy, ...iter(heading), 1.0, self._wx, self._wy, div(kernel.rounding(sx, sy, 1.0), 3.0));
+phase = kernel.phase_of(nx, ny, -1, self._wx, self._wy);
+for (word of iter(SIX)) {
+path = kernel.first_path_of(word, phase, -1, scene, math.inf);
+if (lt(path.time, math.inf)) {
+append_(rows_, Word(i, kernel.controls(path.word), [path.t1, path.t2, path.t3]));
+}
+}
+}
+return Words.joined([Words.of(rows_, r), _onto_circle(self._entries(start), contacts, r)]);
+}
+_entries(start) {
+let heading, orbit, place, problem, r;
+const self = this;
+[orbit, r] = iter([self._problem.orbit, self._radius_m]);
+place = [div(sub(start.x, orbit.east_m), r), div(sub(start.y, orbit.north_m), r)];
+heading = [math.cos(start.heading), math.sin(start.heading)];
+problem = WindProblem(...iter(place), ...iter(heading), self._problem.radius, item(SIDES, orbit.turn), self._wx, self._wy, 0.0);
+return list(iter(kernel.wind_search_ranked(problem))).filter((found) => eq(found.status, kernel.Status.OK)).map((found) => kernel.entry_of(found));
+}
+are_clear(start, words) {
+let clear, counts, ends, flown, good, heading, i, j, k, length, n, r, step, tried, u, width, wind_x, wind_y, x, y;
+const self = this;
+
+[n, r] = iter([words.to.size, self._radius_m]);
+clear = np.ones(n, bool);
+[wind_x, wind_y] = iter([self._wx, self._wy]);
+[x, y, heading] = iter(list(iter(start)).map((value) => np.full(n, value)));
+step = pow(mul(mul(8.0, CHORD_ERROR_M), r), 0.5);
+for (k of iter(range(3))) {
+[u, length] = iter([item(words.control, [slice(null, null), k]), item(words.length, [slice(null, null), k])]);
+tried = item(bit_and(clear, gt(length, 0.0)).nonzero(), 0);
+counts = np.where(eq(item(u, tried), 0.0), 1, np.ceil(div(item(length, tried), step))).astype(np.intp);
+i = np.repeat(tried, counts);
+j = sub(np.arange(i.size), np.repeat(sub(np.cumsum(counts), counts), counts));
+width = div(item(length, i), np.repeat(counts, counts));
+ends = [];
+for (flown of iter([mul(j, width), mul(add(j, 1), width)])) {
+ends = add(ends, airs__flown(item(x, i), item(y, i), item(heading, i), item(u, i), flown, r, wind_x, wind_y));
+}
+good = _clear_chords(self._fence, ends, add(self._margin_m, CHORD_ERROR_M));
+np.logical_and.at(clear, i, good);
+[x, y] = iter(airs__flown(x, y, heading, u, length, r, wind_x, wind_y));
+heading = add(heading, div(mul(u, length), r));
+}
+return clear;
+}
+}, []);
+
+const Pose2 = struct(class extends Tuple {
+constructor(x, y, heading) {
+super();
+this.x = x;
+this.y = y;
+this.heading = heading;
+
+}
+}, ["x", "y", "heading"], 'Pose2');
+
+function rows_on(curves, turn_radius_m, refined) {
+let curve, i, n, rows_, shares;
+rows_ = [];
+for ([i, curve] of rows(enumerate(curves))) {
+n = curve.steps(turn_radius_m, refined);
+shares = (truth(curve.closed) ? list(iter(range(n))).map((k) => div(k, n)) : list(iter(range(add(n, 1)))).map((k) => div(k, n)));
+rows_ = add(rows_, list(iter(shares)).flatMap((share) => list(iter(curve.ways)).map((way) => [i, share, way])));
+}
+return rows_;
+}
+
+function rows_without_straight(curves, x, y, angle, radius_m) {
+let circle, cx, cy, distance, k, row, rows_, tx, ty, u, way;
+rows_ = [];
+for (u of iter([1, -1])) {
+[cx, cy] = iter([add(x, mul(mul(u, radius_m), math.sin(angle))), sub(y, mul(mul(u, radius_m), math.cos(angle)))]);
+rows_ = add(rows_, list(iter(_turns_at(curves, u, cx, cy, mul(2.0, radius_m), radius_m))).map((one) => iter(one)).map(([row, _0, _]) => row));
+for ([k, circle] of rows(enumerate(curves))) {
+for (way of iter(((truth(circle.joined) && !truth(circle.anywhere)) ? circle.ways : []))) {
+distance = sub(circle.radius, mul(mul(u, way), radius_m));
+for ([row, tx, ty] of rows(_turns_at(curves, u, circle.x, circle.y, distance, radius_m))) {
+rows_ = add(rows_, [row, [k, div(mod(math.atan2(sub(ty, circle.y), sub(tx, circle.x)), math.tau), math.tau), way]]);
+}
+}
+}
+}
+return rows_;
+}
+
+function rows_on_tangents(curves, x, y, angle, radius_m) {
+let curve, cx, cy, i, k, normal, other, rows_, share, to, u, way, wide;
+wide = list(iter(enumerate(curves))).map((one) => iter(one)).filter(([i, curve]) => (gt(curve.radius, radius_m) && gt(curve.width, 0.0))).map(([i, curve]) => [i, curve]);
+wide = list(iter(wide)).map((one) => iter(one)).filter(([i, curve]) => !truth(curve.joined)).map(([i, curve]) => [i, curve]);
+rows_ = [];
+for ([i, curve] of rows(wide)) {
+for (way of iter(curve.ways)) {
+for (u of iter([1, -1])) {
+[cx, cy] = iter([sub(x, mul(mul(u, radius_m), math.sin(angle))), add(y, mul(mul(u, radius_m), math.cos(angle)))]);
+rows_ = add(rows_, list(iter(_tangents(cx, cy, radius_m, u, curve, way))).map((one) => iter(one)).map(([_0, to]) => [i, to, way]));
+}
+for ([k, other] of rows(wide)) {
+for (u of iter((ne(k, i) ? other.ways : []))) {
+for ([normal, to] of rows(_tangents(other.x, other.y, other.radius, u, curve, way))) {
+share = div(mod(sub(normal, other.a), math.tau), other.width);
+rows_ = add(rows_, (le(share, 1.0) ? [[i, to, way], [k, share, u]] : []));
+}
+}
+}
+}
+}
+return rows_;
+}
+
+function placed(curves, rows_) {
+let a, anywhere, dx, dy, indices, joined, normal, places, radius, shares, ways, width, x, y;
+
+[indices, shares, ways] = iter(list(iter(zip(...iter(rows_)))).map((column) => np.array(column)));
+[x, y, radius, a, width, dx, dy] = iter(item(np.array(list(iter(curves)).map((curve) => sliced(curve, null, 7, null))), indices).T);
+normal = add(a, mul(shares, width));
+places = [add(add(x, mul(radius, np.cos(normal))), mul(shares, dx)), add(add(y, mul(radius, np.sin(normal))), mul(shares, dy))];
+[joined, anywhere] = iter(list(iter(["joined", "anywhere"])).map((name) => item(np.array(list(iter(curves)).map((curve) => curve[name])), indices)));
+return Contacts(indices, shares, ways, ...iter(places), add(normal, mul(ways, mul(0.5, math.pi))), joined, anywhere);
+}
+
+function clear_points(fence, east_m, north_m, margin_m) {
+let clear, distance, outside, zone;
+
+clear = np.ones(east_m.size, bool);
+for (zone of iter(fence.zones)) {
+if (truth(isinstance(zone, CircleZone))) {
+outside = sub(np.hypot(sub(east_m, zone.east_m), sub(north_m, zone.north_m)), zone.radius_m);
+clear = bit_and(clear, gt((truth(zone.inclusion) ? neg(outside) : outside), margin_m));
+} else {
+distance = to_edge(item(east_m, [slice(null, null), null]), item(north_m, [slice(null, null), null]), edges_of([zone])).min({ axis: 1 });
+clear = bit_and(clear, gt(mul(distance, polygon_sign(zone, east_m, north_m)), margin_m));
+}
+}
+return clear;
+}
+
+const ChainSearch = struct(class extends Values {
+constructor(air, start, contacts, most_m, most_poses) {
+super();
+const self = this;
+
+[self._air, self._start, self._contacts] = iter([air, start, contacts]);
+self._headings = air.headings(contacts);
+self._least = air.least_lengths(contacts, self._headings);
+[self._most_m, self._most_poses] = iter([most_m, most_poses]);
+self._length = np.full(add(contacts.x.size, 1), math.inf);
+self._parent = mul([null], add(contacts.x.size, 1));
+self._heap = [];
+self._expansions = [];
+}
+chains(slack_m, most) {
+let bound, chain, expansion, found, i, k, to, touched, until;
+const self = this;
+found = new Map([]);
+set_item(self._length, -1, 0.0);
+self._expand(self._contacts.x.size);
+until = self._most_m;
+while ((truth(self._heap) && lt(len(found), most))) {
+[bound, k] = iter(heappop(self._heap));
+if ((ge(bound, until) || gt(len(self._expansions), self._most_poses))) {
+break;
+}
+expansion = item(self._expansions, k);
+i = expansion.next;
+to = int(item(expansion.words.to, i));
+if (eq(item(self._length, to), math.inf)) {
+if (eq(item(expansion.clear, i), UNKNOWN)) {
+self._check(expansion);
+}
+if (eq(item(expansion.clear, i), CLEAR)) {
+if (truth(item(self._contacts.joined, to))) {
+chain = self._chain(expansion, i, to);
+until = min(until, add(chain.length_m, slack_m));
+touched = _touched(chain);
+if (!has(touched, found)) {
+set_item(found, touched, chain);
+}
+} else {
+set_item(self._length, to, self._length_of(expansion, i));
+set_item(self._parent, to, [expansion, i]);
+self._expand(to);
+}
+}
+}
+expansion.next = add(expansion.next, 1);
+self._push(k);
+}
+return sorted(values_(found), { key: ((chain) => chain.length_m) });
+}
+_pose(node) {
+const self = this;
+if (eq(node, self._contacts.x.size)) {
+return self._start;
+}
+return Pose2(float(item(self._contacts.x, node)), float(item(self._contacts.y, node)), float(item(self._headings, node)));
+}
+_expand(node) {
+let at, bound, order, words;
+const self = this;
+
+at = (eq(node, self._contacts.x.size) ? null : node);
+words = self._air.words(self._pose(node), at, self._contacts, self._headings);
+bound = add(add(item(self._length, node), _cost(words)), item(self._least, words.to));
+order = np.argsort(bound, { kind: "stable" });
+order = item(order, bit_and(lt(item(bound, order), self._most_m), eq(item(self._length, item(words.to, order)), math.inf)));
+append_(self._expansions, _Expansion(node, item(bound, order), words.take(order), np.full(order.size, UNKNOWN)));
+self._push(sub(len(self._expansions), 1));
+}
+_push(k) {
+let expansion;
+const self = this;
+expansion = item(self._expansions, k);
+if (lt(expansion.next, expansion.bound.size)) {
+heappush(self._heap, [float(item(expansion.bound, expansion.next)), k]);
+}
+}
+_check(expansion) {
+let chosen, open_, rest;
+const self = this;
+rest = slice(expansion.next, null);
+open_ = bit_and(eq(item(self._length, item(expansion.words.to, rest)), math.inf), eq(item(expansion.clear, rest), UNKNOWN));
+chosen = add(sliced(item(open_.nonzero(), 0), null, BATCH, null), expansion.next);
+set_item(expansion.clear, chosen, self._air.are_clear(self._pose(expansion.node), expansion.words.take(chosen)));
+}
+_length_of(expansion, i) {
+const self = this;
+return float(add(item(self._length, expansion.node), item(_cost(expansion.words.take([i])), 0)));
+}
+_chain(expansion, i, to) {
+let before, columns, k, last, nodes, paths, words;
+const self = this;
+[nodes, paths, last] = iter([[to], [], [expansion, i]]);
+while (truth(true)) {
+[words, k] = iter([item(last, 0).words, item(last, 1)]);
+columns = [item(words.control, k), item(words.length, k), item(words.radius, k)];
+append_(paths, tuple(list(iter(zip(...iter(columns)))).map((piece) => Piece(...iter(map(float, piece))))));
+before = item(self._parent, item(last, 0).node);
+if ((before == null)) {
+break;
+}
+append_(nodes, item(last, 0).node);
+last = before;
+}
+return Chain(self._length_of(expansion, i), tuple(reversed(paths)), self._contacts.take(sliced(nodes, null, null, -1)));
+}
+}, []);
+
+function rows_of(contacts) {
+return list(zip(tolist_(contacts.curve), tolist_(contacts.share), tolist_(contacts.way)));
+}
+
+function _turned(piece) {
+return div(mul(piece.control, piece.length_m), piece.radius_m);
+}
+
+function beside(curve, share, by) {
+return (truth(curve.closed) ? mod(add(share, by), 1.0) : min(max(add(share, by), 0.0), 1.0));
+}
+
+function _merged(chain) {
+let merged, piece;
+merged = [];
+for (piece of iter(list(iter(chain.paths)).flatMap((path) => list(iter(path)).map((piece) => piece)))) {
+if (lt(piece.length_m, NO_PIECE_M)) {
+continue;
+}
+if ((truth(merged) && eq([item(merged, -1).control, item(merged, -1).radius_m], [piece.control, piece.radius_m]))) {
+append_(merged, replace(piece, { length_m: add(piece.length_m, pop_(merged).length_m) }));
+} else {
+append_(merged, piece);
+}
+}
+return merged;
+}
+
+function arc_to_edge(arcs, edges) {
+return _least(...iter(arc_edge_points(arcs, edges)));
+}
+
+function arcs_of(pieces) {
+let angle, nx, ny, p;
+p = pieces.take([slice(null), null]);
+[nx, ny] = iter([mul(p.u, p.s), mul(neg(p.u), p.c)]);
+angle = div(mul(p.duration_s, p.speed), p.radius);
+return Arcs(sub(p.x, mul(p.radius, nx)), sub(p.y, mul(p.radius, ny)), p.radius, nx, ny, p.u, angle);
+}
+
+function _note(closest, distance, share, pieces, bent, zone) {
+let own, piece;
+
+piece = np.broadcast_to(item(bent, [slice(null, null), null]), distance.shape);
+own = np.broadcast_to(zone, distance.shape);
+closest.note(own.ravel(), distance.ravel(), piece.ravel(), mul(share, item(pieces.duration_s, piece)).ravel());
+}
+
+const Chords = struct(class extends Tuple {
+constructor(ax, ay, bx, by, off, widen) {
+super();
+this.ax = ax;
+this.ay = ay;
+this.bx = bx;
+this.by = by;
+this.off = off;
+this.widen = widen;
+
+}
+static of(cls, pieces, parts) {
+let off, own;
+own = pieces.take(parts.piece);
+off = div(mul(own.acceleration, pow(sub(parts.b, parts.a), 2)), 8.0);
+return cls(...iter(own.position(parts.a)), ...iter(own.position(parts.b)), off, own.widen);
+}
+columns() {
+const self = this;
+return Chords(...iter(list(iter(self)).map((column) => item(column, [slice(null, null), null]))));
+}
+}, ["ax", "ay", "bx", "by", "off", "widen"], 'Chords');
+
+function _undecided(closest, lower, zone, margin_m, unsigned) {
+let known, matters, touches;
+
+known = item(closest.distance, zone);
+touches = (truth(unsigned) ? le(known, TOUCH_M) : np.zeros(known.shape, bool));
+matters = bit_or(le(lower, add(margin_m, TOUCH_M)), lt(lower, sub(closest.distance.min(), RESOLUTION_M)));
+return item(bit_and(bit_and(lt(lower, sub(known, RESOLUTION_M)), invert(touches)), matters).nonzero(), 0);
+}
+
+function chord_to_edge(ax, ay, bx, by, edges) {
+let distances, shares;
+[distances, shares] = iter(chord_edge_points(ax, ay, bx, by, edges));
+return ChordToEdge(item(distances, 0), item(distances, 1), _least(distances, shares));
+}
+
+function _around(found, chords, parts) {
+let at, distance;
+at = add(parts.a, mul(found.share, sub(parts.b, parts.a)));
+distance = sub(found.distance, chords.widen);
+return Bounds(sub(distance, chords.off), add(distance, chords.off), at);
+}
+
+function arc_to_point(arcs, x, y) {
+let at_ends, away, ends, far, largest, least, near, qx, qy, r, safe, towards, vx, vy, zero;
+
+[vx, vy] = iter([sub(x, arcs.x), sub(y, arcs.y)]);
+r = np.hypot(vx, vy);
+safe = np.maximum(r, np.finfo(float).tiny);
+[qx, qy] = iter([div(vx, safe), div(vy, safe)]);
+at_ends = list(iter([0.0, 1.0])).map((share) => arcs.direction(share));
+ends = list(iter(at_ends)).map((one) => iter(one)).map(([ox, oy]) => np.hypot(sub(mul(arcs.radius, ox), vx), sub(mul(arcs.radius, oy), vy)));
+[towards, away] = iter([arcs.share(qx, qy), arcs.share(neg(qx), neg(qy))]);
+[near, far] = iter([np.where(le(towards, 1.0), abs(sub(r, arcs.radius)), np.inf), np.where(le(away, 1.0), add(r, arcs.radius), neg(np.inf))]);
+zero = np.zeros_like(r);
+least = _least([...iter(ends), near], [zero, add(zero, 1.0), towards]);
+largest = _least([...iter(list(iter(ends)).map((end) => neg(end))), neg(far)], [zero, add(zero, 1.0), away]);
+return Extremes(least, Nearest(neg(largest.distance), largest.share));
+}
+
+const Parts = struct(class extends Tuple {
+constructor(piece, a, b) {
+super();
+this.piece = piece;
+this.a = a;
+this.b = b;
+
+}
+split() {
+let shares, times;
+const self = this;
+
+shares = div(np.arange(add(SPLIT, 1)), SPLIT);
+times = add(item(self.a, [slice(null, null), null]), mul(shares, item(sub(self.b, self.a), [slice(null, null), null])));
+return Parts(np.repeat(self.piece, SPLIT), item(times, [slice(null, null), slice(null, -1)]).ravel(), item(times, [slice(null, null), slice(1, null)]).ravel());
+}
+take(i) {
+const self = this;
+return Parts(item(self.piece, i), item(self.a, i), item(self.b, i));
+}
+}, ["piece", "a", "b"], 'Parts');
+
+function chord_to_point(ax, ay, bx, by, x, y) {
+let share;
+
+share = foot_share(x, y, ax, ay, bx, by);
+return Nearest(np.hypot(sub(add(ax, mul(share, sub(bx, ax))), x), sub(add(ay, mul(share, sub(by, ay))), y)), share);
+}
+
+const Nearest = struct(class extends Tuple {
+constructor(distance, share) {
+super();
+this.distance = distance;
+this.share = share;
+
+}
+}, ["distance", "share"], 'Nearest');
+
+const Bounds = struct(class extends Tuple {
+constructor(lower, upper, at) {
+super();
+this.lower = lower;
+this.upper = upper;
+this.at = at;
+
+}
+}, ["lower", "upper", "at"], 'Bounds');
+
+function _first_touch(pieces, simple, zone) {
+let arcs, ax, ay, bent, bx, by, edges, i, lines, share, straight, times, touched;
+
+[share, edges] = iter([np.full(pieces.x.size, np.inf), edges_of((truth(isinstance(zone, PolygonZone)) ? [zone] : []))]);
+[bent, straight] = iter(list(iter([pieces.bent, eq(pieces.u, 0.0)])).map((kind) => item(bit_and(simple, kind).nonzero(), 0)));
+if (truth(bent.size)) {
+arcs = arcs_of(pieces.take(bent));
+if (truth(isinstance(zone, PolygonZone))) {
+set_item(share, bent, first_within(...iter(arc_edge_points(arcs, edges)), TOUCH_M).min({ axis: -1 }));
+} else {
+set_item(share, bent, first_within(...iter(arc_circle_points(arcs, ...iter(_disc(zone)))), TOUCH_M).min({ axis: -1 }));
+}
+}
+if (truth(straight.size)) {
+lines = pieces.take(straight);
+[[ax, ay], [bx, by]] = iter(list(iter([0.0, lines.duration_s])).map((t) => list(iter(lines.position(t))).map((v) => item(v, [slice(null, null), null]))));
+if (truth(isinstance(zone, PolygonZone))) {
+set_item(share, straight, first_within(...iter(chord_edge_points(ax, ay, bx, by, edges)), TOUCH_M).min({ axis: -1 }));
+} else {
+set_item(share, straight, first_within(...iter(chord_circle_points(ax, ay, bx, by, ...iter(_disc(zone)))), TOUCH_M).min({ axis: -1 }));
+}
+}
+touched = item(lt(share, np.inf).nonzero(), 0);
+if (!truth(touched.size)) {
+return PlaceInPath(np.inf, 0, 0.0);
+}
+times = mul(item(share, touched), item(pieces.duration_s, touched));
+i = int(add(item(pieces.start_s, touched), times).argmin());
+return PlaceInPath(0.0, int(item(touched, i)), float(item(times, i)));
+}
+
+function _searched_entry(pieces, searched, zone, known, known_s) {
+let _, before, entry, entry_s, found, i, keep, parts, signed, step_s, times;
+
+[signed, parts] = iter([Signed(zone), first_parts(pieces, searched)]);
+step_s = div(TOUCH_M, float(add(pieces.speed, np.hypot(pieces.wx, pieces.wy)).max()));
+[entry, entry_s] = iter([known, known_s]);
+for (_ of iter(range(MOST_LEVELS))) {
+found = signed.bounds(Chords.of(pieces, parts), parts);
+times = np.where(le(found.upper, TOUCH_M), add(item(pieces.start_s, parts.piece), found.at), np.inf);
+i = int(times.argmin());
+if (lt(item(times, i), entry_s)) {
+[entry, entry_s] = iter([PlaceInPath(float(item(found.upper, i)), int(item(parts.piece, i)), float(item(found.at, i))), float(item(times, i))]);
+}
+before = lt(add(item(pieces.start_s, parts.piece), parts.a), entry_s);
+keep = bit_and(bit_and(before, le(found.lower, TOUCH_M)), gt(sub(parts.b, parts.a), step_s));
+parts = parts.take(item(keep.nonzero(), 0));
+if (!truth(parts.piece.size)) {
+break;
+}
+parts = parts.split();
+}
+return entry;
+}
+
+const Signed = struct(class extends Values {
+constructor(zone) {
+super();
+const self = this;
+[self._zone, self._edges] = iter([zone, edges_of((truth(isinstance(zone, PolygonZone)) ? [zone] : []))]);
+}
+bounds(chords, parts) {
+let at_a, at_b, is_circle, lower, upper;
+const self = this;
+
+is_circle = isinstance(self._zone, CircleZone);
+[lower, at_a, at_b] = iter((truth(is_circle) ? self._circle_bounds(chords) : self._polygon_bounds(chords)));
+upper = sub(np.minimum(at_a, at_b), chords.widen);
+return Bounds(sub(sub(lower, chords.off), chords.widen), upper, np.where(lt(at_b, at_a), parts.b, parts.a));
+}
+_circle_bounds(chords) {
+let at_a, at_b, near, zone;
+const self = this;
+
+zone = self._zone;
+
+[at_a, at_b] = iter([self.at(chords.ax, chords.ay), self.at(chords.bx, chords.by)]);
+if (truth(zone.inclusion)) {
+return [np.minimum(at_a, at_b), at_a, at_b];
+}
+near = chord_to_point(chords.ax, chords.ay, chords.bx, chords.by, zone.east_m, zone.north_m);
+return [sub(near.distance, zone.radius_m), at_a, at_b];
+}
+_polygon_bounds(chords) {
+let c, deepest, found, lower, near, side_a, side_b, sides, zone;
+const self = this;
+
+[zone, c] = iter([self._zone, chords.columns()]);
+
+found = chord_to_edge(c.ax, c.ay, c.bx, c.by, self._edges);
+sides = polygon_sign(zone, np.append(chords.ax, chords.bx), np.append(chords.ay, chords.by));
+[side_a, side_b] = iter(np.split(sides, 2));
+near = found.nearest.distance.min({ axis: 1 });
+deepest = np.maximum(found.from_a, found.from_b).min({ axis: 1 });
+lower = np.where(bit_and(gt(side_a, 0.0), gt(near, chords.off)), near, neg(deepest));
+return [lower, mul(side_a, found.from_a.min({ axis: 1 })), mul(side_b, found.from_b.min({ axis: 1 }))];
+}
+at(x, y) {
+let outside, zone;
+const self = this;
+
+zone = self._zone;
+if (truth(isinstance(zone, CircleZone))) {
+outside = sub(np.hypot(sub(x, zone.east_m), sub(y, zone.north_m)), zone.radius_m);
+return (truth(zone.inclusion) ? neg(outside) : outside);
+}
+return mul(to_edge(item(x, [slice(null, null), null]), item(y, [slice(null, null), null]), self._edges).min({ axis: 1 }), polygon_sign(zone, x, y));
+}
+}, []);
+
+function fence_check__place(breach, frame, decimals) {
+let d, east, north, place;
+if ((frame != null)) {
+place = frame.place(Pose(breach.east_m, breach.north_m, 0.0));
+return degrees_of(place.latitude_deg, place.longitude_deg);
+}
+d = sub(decimals, 1);
+[east, north] = iter([(ge(breach.east_m, 0.0) ? "east" : "west"), (ge(breach.north_m, 0.0) ? "north" : "south")]);
+return `${format(abs(breach.east_m), `.${String(d)}f`)} m ${str(east)}, ${format(abs(breach.north_m), `.${String(d)}f`)} m ${str(north)}`;
+}
+
+function _named(zone) {
+return `the ${str((truth(zone.inclusion) ? "inclusion zone" : "zone"))} ${repr(zone.name)}`;
+}
+
+function _and_others(others) {
+let names;
+names = join_(" and ", list(iter(others)).map((breach) => repr(breach.zone.name)));
+return `later also ${str(names)}`;
+}
+
+const Segment = struct(class extends Values {
 constructor(letter, start_s, duration_s, length_m, curvature_per_m, start, end) {
 super();
 this.letter = letter;
@@ -3559,7 +5106,7 @@ this.end = end;
 }
 }, ["letter", "start_s", "duration_s", "length_m", "curvature_per_m", "start", "end"], 'Segment');
 
-const Entry = struct(class Entry extends Tuple {
+const Entry = struct(class extends Tuple {
 constructor(side, word, t1, t2, t3) {
 super();
 this.side = side;
@@ -3571,7 +5118,7 @@ this.t3 = t3;
 }
 }, ["side", "word", "t1", "t2", "t3"], 'Entry');
 
-const InitialAdjoint = struct(class InitialAdjoint extends Tuple {
+const InitialAdjoint = struct(class extends Tuple {
 constructor(p, lam, phi) {
 super();
 this.p = p;
@@ -3607,7 +5154,7 @@ yield InitialAdjoint(p, lam, mul(longest.u, sub(lam, inner(p, start.e))));
 }
 }
 
-const PieceState = struct(class PieceState extends Tuple {
+const PieceState = struct(class extends Tuple {
 constructor(q, e, psi, phi) {
 super();
 this.q = q;
@@ -3685,7 +5232,7 @@ return slope;
 return LeastTimes(3, STEPS_IN_WIND, time, after, ((T, slope) => mul(mul(2.0, WIND_TIE_TOLERANCE), add(add(1.0, problem.R), T))), by_heading, 4.0, (() => "T has a corner here, or bends too sharply"));
 }
 
-const Gradient = struct(class Gradient extends Tuple {
+const Gradient = struct(class extends Tuple {
 constructor(slopes, bound) {
 super();
 this.slopes = slopes;
@@ -3729,13 +5276,432 @@ slope = mul(k, sub(distance, 1.0));
 return div(sub(div(1.0, distance), div(mul(k, slope), add(1.0, mul(slope, slope)))), math.sqrt(add(1.0, mul(slope, slope))));
 }
 
+function* _zone_curves(zone, clearance_m) {
+let radius_m;
+if (truth(isinstance(zone, PolygonZone))) {
+yield* iter(_polygon_curves(zone, clearance_m));
+return;
+}
+radius_m = (truth(zone.inclusion) ? sub(zone.radius_m, clearance_m) : add(zone.radius_m, clearance_m));
+if (gt(radius_m, 0.0)) {
+yield Curve(zone.east_m, zone.north_m, radius_m, 0.0, math.tau, 0.0, 0.0, [1, -1]);
+}
+}
+
+const Curve = struct(class extends Tuple {
+constructor(x, y, radius, a, width, dx, dy, ways, joined = false, anywhere = false) {
+super();
+this.x = x;
+this.y = y;
+this.radius = radius;
+this.a = a;
+this.width = width;
+this.dx = dx;
+this.dy = dy;
+this.ways = ways;
+this.joined = joined;
+this.anywhere = anywhere;
+
+}
+get closed() {
+const self = this;
+return eq(self.width, math.tau);
+}
+steps(turn_radius_m, refined) {
+let length, on_line;
+const self = this;
+if (truth(self.joined)) {
+return (truth(self.anywhere) ? 1 : mul(JOINS, refined));
+}
+length = math.hypot(self.dx, self.dy);
+on_line = min(math.ceil(div(length, mul(LINE_STEP, turn_radius_m))), MOST_ON_LINE);
+return max(1, mul(refined, max(on_line, math.ceil(div(self.width, ARC_STEP_RAD)))));
+}
+}, ["x", "y", "radius", "a", "width", "dx", "dy", "ways", "joined", "anywhere"], 'Curve');
+
+function words_between(x, y, angle, to_x, to_y, to_angle, radius) {
+let across, along, c, control, dx, dy, exists, found, lengths, s, turned, u, word;
+
+[c, s] = iter([np.cos(angle), np.sin(angle)]);
+[dx, dy] = iter([div(sub(to_x, x), radius), div(sub(to_y, y), radius)]);
+[along, across, turned] = iter([add(mul(dx, c), mul(dy, s)), sub(mul(dy, c), mul(dx, s)), sub(to_angle, angle)]);
+found = [];
+for (u of iter([1.0, -1.0])) {
+for (word of iter(_left_words(along, mul(u, across), mul(u, turned)))) {
+lengths = np.stack([word.first, word.middle, word.last], { axis: -1 });
+exists = np.flatnonzero(np.isfinite(lengths).all({ axis: 1 }));
+control = np.tile(mul(np.array(word.control), u), [exists.size, 1]);
+append_(found, Words(exists, control, mul(item(lengths, exists), radius), np.full(control.shape, radius)));
+}
+}
+return Words.joined(found);
+}
+
+function _onto_circle(entries, contacts, radius_m) {
+let control, ends, entry, rows_;
+ends = new Map(list(iter(tolist_(item(contacts.anywhere.nonzero(), 0)))).map((i) => [int(item(contacts.way, i)), i]));
+rows_ = [];
+for (entry of iter(entries)) {
+if (has(neg(entry.side), ends)) {
+control = tuple(list(iter(kernel.controls(entry.word))).map((u) => (ne(u, ABSENT) ? float(u) : 0.0)));
+append_(rows_, Word(item(ends, neg(entry.side)), control, [entry.t1, entry.t2, entry.t3]));
+}
+}
+return Words.of(rows_, radius_m);
+}
+
+const Words = struct(class extends Tuple {
+constructor(to, control, length, radius) {
+super();
+this.to = to;
+this.control = control;
+this.length = length;
+this.radius = radius;
+
+}
+take(i) {
+const self = this;
+return Words(...iter(list(iter(self)).map((column) => item(column, i))));
+}
+static of(cls, words, radius) {
+let control, length, to;
+
+to = np.array(list(iter(words)).map((word) => word.to), np.intp);
+[control, length] = iter(list(iter([list(iter(words)).map((word) => word.control), list(iter(words)).map((word) => word.length)])).map((rows_) => np.array(rows_, float).reshape(-1, 3)));
+return cls(to, control, mul(length, radius), np.full(length.shape, radius));
+}
+static joined(cls, several) {
+
+return cls(...iter(list(iter(zip(...iter(several)))).map((columns) => np.concatenate(columns))));
+}
+}, ["to", "control", "length", "radius"], 'Words');
+
+function _clear_arcs(fence, arcs, margin_m) {
+let circles, clear, found, least, outside;
+
+[clear, least] = iter([np.ones(item(arcs.x.shape, 0), bool), add(margin_m, TOUCH_M)]);
+if (truth(fence.polygons)) {
+clear = bit_and(clear, gt(arc_to_edge(arcs, fence.edges).distance.min({ axis: 1 }), least));
+}
+if (truth(fence.circle_zones)) {
+circles = fence.circles;
+found = arc_to_point(arcs, circles.x, circles.y);
+outside = np.where(gt(circles.sign, 0.0), found.least.distance, found.largest.distance);
+clear = bit_and(clear, gt(mul(circles.sign, sub(outside, circles.radius)).min({ axis: 1 }), least));
+}
+return clear;
+}
+
+const Arcs = struct(class extends Tuple {
+constructor(x, y, radius, nx, ny, u, angle) {
+super();
+this.x = x;
+this.y = y;
+this.radius = radius;
+this.nx = nx;
+this.ny = ny;
+this.u = u;
+this.angle = angle;
+
+}
+share(qx, qy) {
+let turned;
+const self = this;
+
+turned = np.arctan2(mul(self.u, sub(mul(self.nx, qy), mul(self.ny, qx))), add(mul(self.nx, qx), mul(self.ny, qy)));
+return div(np.where(lt(turned, 0.0), add(turned, mul(2.0, np.pi)), turned), np.maximum(self.angle, np.finfo(float).tiny));
+}
+direction(share) {
+let c, s;
+const self = this;
+
+[c, s] = iter([np.cos(mul(share, self.angle)), mul(self.u, np.sin(mul(share, self.angle)))]);
+return [sub(mul(self.nx, c), mul(self.ny, s)), add(mul(self.ny, c), mul(self.nx, s))];
+}
+}, ["x", "y", "radius", "nx", "ny", "u", "angle"], 'Arcs');
+
+function _clear_chords(fence, ends, margin_m) {
+let ax, ay, bx, by, circles, clear, far, least, near, outside;
+
+[ax, ay, bx, by] = iter(list(iter(ends)).map((v) => item(v, [slice(null, null), null])));
+[clear, least] = iter([np.ones(item(ax.shape, 0), bool), add(margin_m, TOUCH_M)]);
+if (truth(fence.polygons)) {
+clear = bit_and(clear, gt(chord_to_edge(ax, ay, bx, by, fence.edges).nearest.distance.min({ axis: 1 }), least));
+}
+if (truth(fence.circle_zones)) {
+circles = fence.circles;
+near = chord_to_point(ax, ay, bx, by, circles.x, circles.y).distance;
+far = np.maximum(np.hypot(sub(ax, circles.x), sub(ay, circles.y)), np.hypot(sub(bx, circles.x), sub(by, circles.y)));
+outside = np.where(gt(circles.sign, 0.0), near, far);
+clear = bit_and(clear, gt(mul(circles.sign, sub(outside, circles.radius)).min({ axis: 1 }), least));
+}
+return clear;
+}
+
+const WindScene = struct(class extends Tuple {
+constructor(x, y, c, s, R, wx, wy, arc_tolerance) {
+super();
+this.x = x;
+this.y = y;
+this.c = c;
+this.s = s;
+this.R = R;
+this.wx = wx;
+this.wy = wy;
+this.arc_tolerance = arc_tolerance;
+
+}
+}, ["x", "y", "c", "s", "R", "wx", "wy", "arc_tolerance"], 'WindScene');
+
+const Word = struct(class extends Tuple {
+constructor(to, control, length) {
+super();
+this.to = to;
+this.control = control;
+this.length = length;
+
+}
+}, ["to", "control", "length"], 'Word');
+
+function airs__flown(x, y, heading, u, length, r, wx, wy) {
+let angle, chord, half;
+
+angle = div(length, r);
+[half, chord] = iter([add(heading, mul(mul(0.5, u), angle)), np.where(eq(u, 0.0), length, mul(mul(2.0, r), np.sin(mul(0.5, angle))))]);
+return [add(add(x, mul(chord, np.cos(half))), mul(wx, length)), add(add(y, mul(chord, np.sin(half))), mul(wy, length))];
+}
+
+function* _turns_at(curves, u, cx, cy, distance, radius_m) {
+let curve, i, normal, offset, share, tx, ty, way;
+for ([i, curve] of rows(enumerate(curves))) {
+for (way of iter((truth(curve.joined) ? [] : curve.ways))) {
+offset = sub(curve.radius, mul(mul(u, way), radius_m));
+if ((lt(mul(u, way), 0) || (gt(curve.width, 0.0) && lt(curve.radius, radius_m)))) {
+for (share of iter(_shares_at(curve, offset, cx, cy, distance))) {
+normal = add(curve.a, mul(share, curve.width));
+[tx, ty] = iter([add(curve.x, mul(share, curve.dx)), add(curve.y, mul(share, curve.dy))]);
+yield [[i, share, way], add(tx, mul(offset, math.cos(normal))), add(ty, mul(offset, math.sin(normal)))];
+}
+}
+}
+}
+}
+
+function _tangents(cx, cy, radius, u, curve, way) {
+let apart, cosine, dx, dy, found, normal, share, side;
+[dx, dy] = iter([sub(curve.x, cx), sub(curve.y, cy)]);
+apart = math.hypot(dx, dy);
+cosine = (gt(apart, 0.0) ? div(sub(mul(mul(u, way), radius), curve.radius), apart) : math.inf);
+if (gt(abs(cosine), 1.0)) {
+return [];
+}
+found = [];
+for (side of iter([1.0, -1.0])) {
+normal = add(math.atan2(dy, dx), mul(side, math.acos(cosine)));
+share = div(mod(sub(normal, curve.a), math.tau), curve.width);
+if ((le(share, 1.0) && ge(mul(way, sub(mul(dy, math.cos(normal)), mul(dx, math.sin(normal)))), 0.0))) {
+append_(found, [(eq(u, way) ? normal : add(normal, math.pi)), share]);
+}
+}
+return found;
+}
+
+const Contacts = struct(class extends Tuple {
+constructor(curve, share, way, x, y, angle, joined, anywhere) {
+super();
+this.curve = curve;
+this.share = share;
+this.way = way;
+this.x = x;
+this.y = y;
+this.angle = angle;
+this.joined = joined;
+this.anywhere = anywhere;
+
+}
+take(i) {
+const self = this;
+return Contacts(...iter(list(iter(self)).map((column) => item(column, i))));
+}
+}, ["curve", "share", "way", "x", "y", "angle", "joined", "anywhere"], 'Contacts');
+
+function polygon_sign(zone, east_m, north_m) {
+let inside;
+
+
+inside = shapely.contains_xy(zone._polygon, east_m, north_m);
+return np.where(eq(inside, zone.inclusion), 1.0, -1.0);
+}
+
+function _touched(chain) {
+let touched;
+touched = zip(tolist_(chain.contacts.curve), tolist_(chain.contacts.way));
+return join_(" ", dict.fromkeys(list(iter(touched)).map((one) => iter(one)).map(([curve, way]) => `${format(curve, `d`)},${format(way, `d`)}`)));
+}
+
+function _cost(words) {
+let cost;
+cost = add(words.length.sum({ axis: 1 }), mul(PIECE_M, gt(words.length, NO_PIECE_M).sum({ axis: 1 })));
+return cost;
+}
+
+const _Expansion = struct(class extends Values {
+constructor(node, bound, words, clear, next = 0) {
+super();
+this.node = node;
+this.bound = bound;
+this.words = words;
+this.clear = clear;
+this.next = next;
+
+}
+}, ["node", "bound", "words", "clear", "next"], '_Expansion');
+
+const Piece = struct(class extends Tuple {
+constructor(control, length_m, radius_m) {
+super();
+this.control = control;
+this.length_m = length_m;
+this.radius_m = radius_m;
+
+}
+}, ["control", "length_m", "radius_m"], 'Piece');
+
+const Chain = struct(class extends Tuple {
+constructor(length_m, paths, contacts) {
+super();
+this.length_m = length_m;
+this.paths = paths;
+this.contacts = contacts;
+
+}
+}, ["length_m", "paths", "contacts"], 'Chain');
+
+function _least(distances, shares) {
+let best, every;
+
+every = np.stack(distances);
+best = every.argmin({ axis: 0 });
+return Nearest(every.min({ axis: 0 }), np.choose(best, shares));
+}
+
+function arc_edge_points(arcs, edges) {
+let across, along, directions, distance, ends, ex, ey, h, length, qx, qy, r, shape, share, vx, vy;
+
+[ex, ey] = iter([sub(edges.bx, edges.ax), sub(edges.by, edges.ay)]);
+length = np.hypot(ex, ey);
+[ex, ey] = iter([div(ex, length), div(ey, length)]);
+[vx, vy] = iter([sub(edges.ax, arcs.x), sub(edges.ay, arcs.y)]);
+h = sub(mul(ex, vy), mul(ey, vx));
+across = np.clip(div(h, arcs.radius), -1.0, 1.0);
+along = np.sqrt(mul(sub(1.0, across), add(1.0, across)));
+r = np.maximum(np.hypot(vx, vy), np.finfo(float).tiny);
+shape = np.broadcast_shapes(arcs.x.shape, edges.ax.shape);
+ends = list(iter([0.0, 1.0])).map((share) => arcs.direction(share));
+directions = [...iter(ends), [div(vx, r), div(vy, r)], [sub(mul(ex, along), mul(ey, across)), add(mul(ey, along), mul(ex, across))], [sub(mul(neg(ex), along), mul(ey, across)), add(mul(neg(ey), along), mul(ex, across))]];
+[qx, qy] = iter(list(iter(zip(...iter(directions)))).map((values) => np.stack(list(iter(values)).map((value) => np.broadcast_to(value, shape)))));
+share = arcs.share(qx, qy);
+const unpacked1 = iter([0.0, 1.0]);
+set_item(share, 0, unpacked1[0]);
+set_item(share, 1, unpacked1[1]);
+distance = np.where(le(share, 1.0), to_edge(add(arcs.x, mul(arcs.radius, qx)), add(arcs.y, mul(arcs.radius, qy)), edges), np.inf);
+return [distance, share];
+}
+
+function chord_edge_points(ax, ay, bx, by, edges) {
+let c, crosses, crossing, d, from_a, from_b, zero;
+
+c = chord_to_point(ax, ay, bx, by, edges.ax, edges.ay);
+d = chord_to_point(ax, ay, bx, by, edges.bx, edges.by);
+[from_a, from_b] = iter([to_edge(ax, ay, edges), to_edge(bx, by, edges)]);
+crossing = crossing_share(ax, ay, bx, by, edges);
+crosses = np.where(ge(crossing, 0.0), 0.0, np.inf);
+zero = np.zeros_like(from_a);
+return [[from_a, from_b, c.distance, d.distance, crosses], [zero, add(zero, 1.0), c.share, d.share, crossing]];
+}
+
+const ChordToEdge = struct(class extends Tuple {
+constructor(from_a, from_b, nearest) {
+super();
+this.from_a = from_a;
+this.from_b = from_b;
+this.nearest = nearest;
+
+}
+}, ["from_a", "from_b", "nearest"], 'ChordToEdge');
+
+const Extremes = struct(class extends Tuple {
+constructor(least, largest) {
+super();
+this.least = least;
+this.largest = largest;
+
+}
+}, ["least", "largest"], 'Extremes');
+
+function foot_share(x, y, ax, ay, bx, by) {
+let along, ex, ey, length_2;
+
+[ex, ey] = iter([sub(bx, ax), sub(by, ay)]);
+length_2 = add(mul(ex, ex), mul(ey, ey));
+along = add(mul(sub(x, ax), ex), mul(sub(y, ay), ey));
+return np.clip(np.divide(along, length_2, { out: np.zeros(np.broadcast(along, length_2).shape), where: gt(length_2, 0.0) }), 0.0, 1.0);
+}
+
+function first_within(distances, shares, within_m) {
+
+return np.where(le(np.stack(distances), within_m), np.stack(shares), np.inf).min({ axis: 0 });
+}
+
+function arc_circle_points(arcs, x, y, radius) {
+let apart, c, directions, from_centre, qx, qy, s, share, towards_x, towards_y, vx, vy;
+
+[vx, vy] = iter([sub(x, arcs.x), sub(y, arcs.y)]);
+apart = np.maximum(np.hypot(vx, vy), NO_LENGTH_M);
+[towards_x, towards_y] = iter([div(vx, apart), div(vy, apart)]);
+c = np.clip(div(sub(add(pow(apart, 2), pow(arcs.radius, 2)), pow(radius, 2)), mul(mul(2.0, apart), arcs.radius)), -1.0, 1.0);
+s = np.sqrt(mul(sub(1.0, c), add(1.0, c)));
+directions = [...iter(list(iter([0.0, 1.0])).map((share) => arcs.direction(share))), [towards_x, towards_y], [neg(towards_x), neg(towards_y)], [sub(mul(towards_x, c), mul(towards_y, s)), add(mul(towards_y, c), mul(towards_x, s))], [add(mul(towards_x, c), mul(towards_y, s)), sub(mul(towards_y, c), mul(towards_x, s))]];
+[qx, qy] = iter(list(iter(zip(...iter(directions)))).map((values) => np.stack(values)));
+share = arcs.share(qx, qy);
+const unpacked1 = iter([0.0, 1.0]);
+set_item(share, 0, unpacked1[0]);
+set_item(share, 1, unpacked1[1]);
+from_centre = np.hypot(sub(mul(arcs.radius, qx), vx), sub(mul(arcs.radius, qy), vy));
+return [np.where(le(share, 1.0), abs(sub(from_centre, radius)), np.inf), share];
+}
+
+function _disc(zone) {
+return [zone.east_m, zone.north_m, zone.radius_m];
+}
+
+function chord_circle_points(ax, ay, bx, by, x, y, radius) {
+let across, along, from_centre, half, length, near, share, zero;
+
+near = chord_to_point(ax, ay, bx, by, x, y);
+length = np.maximum(np.hypot(sub(bx, ax), sub(by, ay)), NO_LENGTH_M);
+along = div(add(mul(sub(x, ax), sub(bx, ax)), mul(sub(y, ay), sub(by, ay))), length);
+across = sub(pow(np.hypot(sub(x, ax), sub(y, ay)), 2), pow(along, 2));
+half = np.sqrt(np.maximum(sub(pow(radius, 2), across), 0.0));
+zero = np.zeros_like(near.share);
+share = np.stack([zero, add(zero, 1.0), near.share, div(sub(along, half), length), div(add(along, half), length)]);
+from_centre = np.hypot(sub(add(ax, mul(share, sub(bx, ax))), x), sub(add(ay, mul(share, sub(by, ay))), y));
+return [np.where(bit_and(ge(share, 0.0), le(share, 1.0)), abs(sub(from_centre, radius)), np.inf), share];
+}
+
+function degrees_of(latitude_deg, longitude_deg) {
+let east, north;
+[north, east] = iter([(ge(latitude_deg, 0.0) ? "N" : "S"), (ge(longitude_deg, 0.0) ? "E" : "W")]);
+return `${format(abs(latitude_deg), `.6f`)} ${str(north)} ${format(abs(longitude_deg), `.6f`)} ${str(east)}`;
+}
+
 function _end(start, pieces) {
 let _, last;
 [_, last] = with_middle(pieces, 0, 1);
 return [last.end.e, end_rate(start, last.end.q, last.end.e, last.u)];
 }
 
-const LeastTimes = struct(class LeastTimes extends Tuple {
+const LeastTimes = struct(class extends Tuple {
 constructor(axes, steps, time, after, error, by_heading, motion_size, not_smooth) {
 super();
 this.axes = axes;
@@ -3760,6 +5726,77 @@ turning = abs(parallel.q);
 return mul(0.25, min(turning, clearance(problem)));
 }
 
+const Slope = struct(class extends Tuple {
+constructor(value, bound) {
+super();
+this.value = value;
+this.bound = bound;
+
+}
+}, ["value", "bound"], 'Slope');
+
+function* _polygon_curves(zone, clearance_m) {
+let corners, ex, ey, fx, fy, normal, sides, turned, x, y;
+corners = _forbidden_left(zone);
+sides = list(iter(zip(corners, [...iter(sliced(corners, 1, null, null)), item(corners, 0)]))).map((one) => iter(one)).map(([a, b]) => [sub(item(b, 0), item(a, 0)), sub(item(b, 1), item(a, 1))]);
+for ([[x, y], [ex, ey], [fx, fy]] of rows(zip(corners, [item(sides, -1), ...iter(sliced(sides, null, -1, null))], sides))) {
+normal = math.atan2(neg(fx), fy);
+yield Curve(x, y, clearance_m, normal, 0.0, fx, fy, [1, -1]);
+turned = math.atan2(sub(mul(ex, fy), mul(ey, fx)), add(mul(ex, fx), mul(ey, fy)));
+if (gt(turned, 0.0)) {
+yield Curve(x, y, clearance_m, sub(normal, turned), turned, 0.0, 0.0, [1, -1]);
+}
+}
+}
+
+function* _left_words(x, y, turned) {
+let ahead, course, cross, far, first, half, last, left_x, left_y, right_x, right_y;
+
+[left_x, left_y] = iter([sub(x, np.sin(turned)), sub(add(y, np.cos(turned)), 1.0)]);
+[right_x, right_y] = iter([add(x, np.sin(turned)), sub(sub(y, np.cos(turned)), 1.0)]);
+far = np.hypot(left_x, left_y);
+ahead = np.where(lt(far, WHOLE_TURN), 0.0, np.arctan2(left_y, left_x));
+yield LeftWord([1.0, 0.0, 1.0], _arc(ahead), far, _arc(sub(turned, ahead)));
+cross = np.sqrt(sub(add(pow(right_x, 2), pow(right_y, 2)), 4.0));
+course = add(np.arctan2(right_y, right_x), np.arctan2(2.0, cross));
+yield LeftWord([1.0, 0.0, -1.0], _arc(course), cross, _arc(sub(course, turned)));
+half = np.arccos(mul(0.25, far));
+[first, last] = iter([_arc(add(add(ahead, half), mul(0.5, math.pi))), _arc(sub(add(sub(turned, ahead), half), mul(1.5, math.pi)))]);
+yield LeftWord([1.0, -1.0, 1.0], first, add(math.pi, mul(2.0, half)), last);
+}
+
+function _shares_at(curve, offset, cx, cy, distance) {
+let a, apart, b, cosine, normals, root_2, shares, wx, wy;
+if (gt(curve.width, 0.0)) {
+[wx, wy] = iter([sub(curve.x, cx), sub(curve.y, cy)]);
+apart = math.hypot(wx, wy);
+cosine = (ne(mul(offset, apart), 0.0) ? div(sub(sub(pow(distance, 2), pow(apart, 2)), pow(offset, 2)), mul(mul(2.0, offset), apart)) : math.inf);
+if (gt(abs(cosine), 1.0)) {
+return [];
+}
+normals = list(iter([1.0, -1.0])).map((side) => add(math.atan2(wy, wx), mul(side, math.acos(cosine))));
+shares = list(iter(normals)).map((normal) => div(mod(sub(normal, curve.a), math.tau), curve.width));
+} else {
+[wx, wy] = iter([sub(add(curve.x, mul(offset, math.cos(curve.a))), cx), sub(add(curve.y, mul(offset, math.sin(curve.a))), cy)]);
+[a, b] = iter([add(pow(curve.dx, 2), pow(curve.dy, 2)), add(mul(wx, curve.dx), mul(wy, curve.dy))]);
+root_2 = sub(mul(b, b), mul(a, sub(add(mul(wx, wx), mul(wy, wy)), pow(distance, 2))));
+shares = (ge(root_2, 0.0) ? list(iter([1.0, -1.0])).map((side) => div(add(neg(b), mul(side, math.sqrt(root_2))), a)) : []);
+}
+return list(iter(shares)).filter((share) => (le(0.0, share) && le(share, 1.0))).map((share) => share);
+}
+
+function crossing_share(ax, ay, bx, by, edges) {
+let across, along, cross, crosses, dx, dy, ex, ey, px, py, safe;
+
+[dx, dy, ex, ey] = iter([sub(bx, ax), sub(by, ay), sub(edges.bx, edges.ax), sub(edges.by, edges.ay)]);
+[px, py] = iter([sub(edges.ax, ax), sub(edges.ay, ay)]);
+cross = sub(mul(dx, ey), mul(dy, ex));
+safe = np.where(eq(cross, 0.0), 1.0, cross);
+[along, across] = iter([div(sub(mul(px, ey), mul(py, ex)), safe), div(sub(mul(px, dy), mul(py, dx)), safe)]);
+crosses = bit_and(bit_and(bit_and(bit_and(ne(cross, 0.0), ge(along, 0.0)), le(along, 1.0)), ge(across, 0.0)), le(across, 1.0));
+return np.where(crosses, along, -1.0);
+}
+
 function clearance(problem) {
 let R, _, distances, ordinate, rm, rp, squares, x, y;
 [x, y, R, _, _] = iter(problem);
@@ -3772,14 +5809,30 @@ distances = add(distances, list(iter(squares)).map((one) => iter(one)).filter(([
 return min(list(iter(distances)).filter((distance) => gt(distance, kernel.rounding(x, y, R))).map((distance) => distance), { default: math.inf });
 }
 
-const Slope = struct(class Slope extends Tuple {
-constructor(value, bound) {
+function _forbidden_left(zone) {
+let area, following;
+following = [...iter(sliced(zone.corners, 1, null, null)), item(zone.corners, 0)];
+area = sum(list(iter(zip(zone.corners, following))).map((one) => iter(one)).map(([[x0, y0], [x1, y1]]) => sub(mul(x0, y1), mul(x1, y0))));
+return (ne(gt(area, 0.0), zone.inclusion) ? zone.corners : sliced(zone.corners, null, null, -1));
+}
+
+function _arc(angle) {
+let within;
+
+within = np.mod(angle, math.tau);
+return np.where(gt(within, sub(math.tau, WHOLE_TURN)), 0.0, within);
+}
+
+const LeftWord = struct(class extends Tuple {
+constructor(control, first, middle, last) {
 super();
-this.value = value;
-this.bound = bound;
+this.control = control;
+this.first = first;
+this.middle = middle;
+this.last = last;
 
 }
-}, ["value", "bound"], 'Slope');
+}, ["control", "first", "middle", "last"], 'LeftWord');
 
 const STYLES = new Map([["L", "ff739e00"], ["S", "ffb27200"], ["R", "ff005ed5"], ["circle", "ff000000"]]);
 const SCHEMA = "http://www.w3.org/2001/XMLSchema-instance";
@@ -3843,6 +5896,7 @@ const STEPS = 100;
 const LAP_STEPS = 120;
 const STEP = 0.05;
 const MOST_STEPS = 6000;
+const LEAST_CORNERS = 3;
 const MAX_POINTS = 20000;
 const REACH = pow(2.0, 52);
 const CHORD_ERROR = 0.002;
@@ -3852,6 +5906,8 @@ const IN_WIND = Formulation([Condition("target", "|q(T)| = R", distance_from_cir
 const SHORTEST_PERIOD_S = 10.0;
 const PERIOD = 4.0;
 const BAND = Band();
+const SAME_CORNER_M = 1e-06;
+const TOUCH_M = 1e-06;
 const BASIS_VIOLATED = "a condition is violated";
 const BASIS_THEOREM = "docs/proof.md, theorem 1, up to rounding";
 const BASIS_NECESSARY = "necessary conditions only";
@@ -3877,6 +5933,9 @@ const SHORT_M = 0.001;
 const DIRECTIONS = new Map([[Turn.CW, [1]], [Turn.CCW, [-1]], [Turn.EITHER, [1, -1]]]);
 const WIDE_BAND = 2.0;
 const COUNTED_DEG = 10.0;
+const LATE = 1.0;
+const LEAST_MARGIN_M = 5.0;
+const MARGIN_SHARE = 0.05;
 const KNOT = div(1852.0, 3600.0);
 const TURNS = new Map(list(iter(items_(SIDES))).map((one) => iter(one)).map(([turn, side]) => [side, turn]));
 const _MESSAGES = new Map([[kernel.Status.OK, "solved"], [kernel.Status.NOT_FINITE, "the state, the radius or the wind is nan or infinite"], [kernel.Status.RADIUS_TOO_SMALL, "the circle is tighter than the minimum turn radius"], [kernel.Status.OUT_OF_RANGE, "the state or the radius is beyond 2**52 turn radii, where a double cannot resolve one turn, or a place on Earth is more than 100 km away"], [kernel.Status.BAD_TOLERANCE, "the tolerance must be zero or positive, and below 2**52 turn radii"], [kernel.Status.BAD_AIRCRAFT, "airspeed and turn limit must be positive, finite numbers, and a bank below 90 degrees"], [kernel.Status.BAD_ORBIT, "the circle needs a finite centre and velocity, and a positive, finite radius"], [kernel.Status.BAD_TURN, "the turn must be cw, ccw or either"], [kernel.Status.BAD_POSE, "the position and the heading must be finite numbers, and latitudes within 90 degrees"], [kernel.Status.MALFORMED, "the line has more or fewer fields than the header, an open quote, is too long, or is not UTF-8"], [kernel.Status.WIND_TOO_STRONG, "the wind relative to the circle is as fast as the aircraft: |w| must be below 1"], [kernel.Status.NOT_HELD, "the circle is too tight to be held in this wind"], [kernel.Status.NOT_CONVERGED, "no maneuver was found that ends on the circle when flown"], [kernel.Status.BAD_WIND, "the wind needs a finite speed, zero or positive, and a finite direction"], [kernel.Status.BAD_SLOT, "the slot needs a finite bearing, and a finite time within 100,000 turns of the start"]]);
@@ -3892,6 +5951,22 @@ const AT_CENTRE_M = 0.1;
 const PHASES = new Map([[1, Phase.LEFT], [0, Phase.STRAIGHT], [-1, Phase.RIGHT]]);
 const STILL = [0.0, 0.0];
 const SMALLEST_TURN = pow(2.0, -54);
+const STILL_AIR_GAP_M = mul(10.0, TOUCH_M);
+const CHORD_ERROR_M = 0.01;
+const WIND_GAP_M = mul(2.1, CHORD_ERROR_M);
+const WIDER = [0.2, 0.5];
+const PASSES = [1, 2];
+const SLACK = 0.5;
+const MOST_CHAINS = 4;
+const MOST_POSES = 1500;
+const MOST_POSES_IN_WIND = 60;
+const HALVINGS = 14;
+const TANGENT_STEPS = 5;
+const clear_entry_LETTERS = new Map(list(iter(items_(CONTROLS))).map((one) => iter(one)).map(([letter, control]) => [float(control), letter]));
+const MOST_LEVELS = 16;
+const SPLIT = 12;
+const FIRST_PART_RAD = 0.8;
+const RESOLUTION_M = mul(0.1, TOUCH_M);
 const fits_SHORT = 0.0001;
 const SHORT = fits_SHORT;
 const SAMPLES = 9;
@@ -3900,8 +5975,21 @@ const RESOLVED = 0.001;
 const AT_CORNER = "T has a corner: its one-sided derivatives";
 const LARGEST_K = 10.0;
 const FIELD_SHARE = 0.9;
+const SAME_TIME_S = 0.05;
+const SIX = list(iter([[1, 0, 1], [-1, 0, -1], [1, 0, -1], [-1, 0, 1], [1, -1, 1], [-1, 1, -1]])).map((one) => iter(one)).map(([u, v, w]) => kernel.set_of(arrays.encode(u, v, w)));
+const UNKNOWN = -1;
+const CLEAR = 1;
+const BATCH = 48;
+const NO_PIECE_M = 1e-08;
 const SCANNED_DIRECTIONS = 720;
 const STEPS_IN_STILL_AIR = tuple(list(iter(range(4, 34))).map((k) => pow(2.0, neg(k))));
 const STEPS_IN_WIND = [pow(2.0, -6), pow(2.0, -9), pow(2.0, -12), pow(2.0, -15)];
+const JOINS = 48;
+const LINE_STEP = 0.5;
+const MOST_ON_LINE = 24;
+const ARC_STEP_RAD = div(math.pi, 12.0);
+const PIECE_M = 0.001;
+const NO_LENGTH_M = 1e-100;
+const WHOLE_TURN = 1e-09;
 
-export { plan, all_candidates, certificate, lap, race, _check_points, FILE_FORMATS, SaveArguments, AltitudeDatum, AUTOPILOTS, JSON_FIELDS, Pose, Orbit, Aircraft, Wind, Problem, all_fastest, heading_vector, Maneuver, LocalFrame, PlacedProblem, _kind, NARROW, SHARE, JUMP, LARGEST_GAP, VANISHING };
+export { plan, all_candidates, certificate, lap, race, fence_check, clear_plan, clear_maneuver, CircleZone, PolygonZone, Fence, _check_points, FILE_FORMATS, SaveArguments, AltitudeDatum, AUTOPILOTS, JSON_FIELDS, Pose, Orbit, Aircraft, Wind, Problem, all_fastest, heading_vector, Maneuver, LocalFrame, PlacedProblem, _kind, NARROW, SHARE, JUMP, LARGEST_GAP, VANISHING };

@@ -1,9 +1,9 @@
 // @ts-nocheck
 // What Python's values do, for code that is translated from it without types (`codegen/library.py`): numbers, complex
-// numbers, one-dimensional arrays and text under its operators and formats, and what that code calls of its library and
-// of NumPy.
+// numbers, arrays and text under its operators and formats, and what that code calls of its library.
 
 import { Word } from "./kernel.js";
+import { Mask, Slice, Vector, array, at, binary, filled, put, rowsOf, unary } from "./numpy.js";
 
 // Values
 
@@ -15,19 +15,7 @@ export class Complex {
   }
 }
 
-/** A one-dimensional array of numbers, on which operators work element by element. */
-export class Vector extends Float64Array {
-  get size() {
-    return this.length;
-  }
-}
 const isList = (a) => Array.isArray(a) || a instanceof Vector;
-/** An array of the values of a function of the indices. */
-function vector(length, value) {
-  const found = new Vector(length);
-  for (let i = 0; i < length; i++) found[i] = value(i);
-  return found;
-}
 
 /** A frozen dataclass. */
 export class Values {
@@ -50,8 +38,14 @@ export class Tuple {
 export function struct(kind, fields, title) {
   kind.fields = fields;
   kind.title = title;
-  return Object.assign((...given) => new kind(...given), { _fields: fields, kind });
+  const make = (...given) => new kind(...given);
+  const methods = Object.getOwnPropertyNames(kind).filter((name) => typeof kind[name] === "function");
+  for (const name of methods) make[name] = (...given) => kind[name](make, ...given);
+  return Object.assign(make, { _fields: fields, kind });
 }
+
+/** Whether a value is of one of some classes. */
+export const isinstance = (value, ...makers) => makers.some(({ kind }) => value instanceof kind);
 
 /** The members of an enumeration; their values stand for them. */
 export const enumeration = (members) => ({
@@ -94,12 +88,7 @@ const complex = (a) => (a instanceof Complex ? a : new Complex(number(a), 0));
 function operator(ofNumbers, ofComplex) {
   return function apply(a, b) {
     if (typeof a === "number" && typeof b === "number") return ofNumbers(a, b);
-    if (a instanceof Vector || b instanceof Vector) {
-      const found = new Vector((a instanceof Vector ? a : b).length);
-      const [ones, others] = [a instanceof Vector ? a : found.fill(number(a)), b instanceof Vector ? b : found.fill(number(b))];
-      for (let i = 0; i < found.length; i++) found[i] = ofNumbers(ones[i], others[i]);
-      return found;
-    }
+    if (a instanceof Vector || b instanceof Vector) return binary(ofNumbers, a, b);
     if (a instanceof Complex || b instanceof Complex) return ofComplex(complex(a), complex(b));
     return ofNumbers(number(a), number(b));
   };
@@ -139,29 +128,32 @@ export const mod = operator((a, b) => {
 });
 export const pow = operator((a, b) => a ** b);
 export const floordiv = operator((a, b) => Math.floor(a / b));
-export const bit_and = operator((a, b) => a & b);
-export const bit_or = (a, b) => (a instanceof Map ? new Map([...a, ...b]) : a | b);
+export const bit_and = (a, b) => (isArray(a, b) ? binary((one, other) => one & other, a, b, Mask) : a & b);
+export function bit_or(a, b) {
+  if (a instanceof Map) return new Map([...a, ...b]);
+  return isArray(a, b) ? binary((one, other) => one | other, a, b, Mask) : a | b;
+}
 export const neg = (a) => (a instanceof Complex ? new Complex(-a.real, -a.imag) : typeof a === "number" ? -a : mul(a, -1));
+/** Not, of truth values. */
+export const invert = unary((a) => Number(a === 0), Mask);
 
-const order = (compare) =>
-  function (a, b) {
-    if (a instanceof Vector) return vector(a.length, (i) => number(compare(a[i], b)));
-    return compare(a, b);
-  };
+const isArray = (a, b) => a instanceof Vector || b instanceof Vector;
+const order = (compare) => (a, b) => (isArray(a, b) ? binary(compare, a, b, Mask) : compare(a, b));
 export const lt = order((a, b) => a < b);
 export const le = order((a, b) => a <= b);
 export const gt = order((a, b) => a > b);
 export const ge = order((a, b) => a >= b);
 
-/** Whether two values are equal, element by element. */
-export function eq(a, b) {
+/** Whether two values are equal: of arrays, which elements are. */
+export const eq = (a, b) => (isArray(a, b) ? binary((one, other) => one === other, a, b, Mask) : same(a, b));
+function same(a, b) {
   if (a === b || (a == null && b == null)) return true;
   if (a instanceof Complex || b instanceof Complex) return complex(a).real === complex(b).real && complex(a).imag === complex(b).imag;
   if (typeof a !== "object" || typeof b !== "object" || a === null || b === null) return false;
   const [ones, others] = [Object.values(a), Object.values(b)];
-  return ones.length === others.length && ones.every((one, i) => eq(one, others[i]));
+  return ones.length === others.length && ones.every((one, i) => same(one, others[i]));
 }
-export const ne = (a, b) => !eq(a, b);
+export const ne = (a, b) => (isArray(a, b) ? binary((one, other) => one !== other, a, b, Mask) : !same(a, b));
 export const has = (a, all) => (all instanceof Map ? all.has(a) : typeof all === "string" ? all.includes(a) : iter(all).some((one) => eq(a, one)));
 
 export function truth(a) {
@@ -175,7 +167,8 @@ export const or = (a, b) => (truth(a) ? a : b());
 
 /** The elements of anything that Python iterates over, as an array. */
 export function iter(all) {
-  if (isList(all)) return all;
+  if (Array.isArray(all)) return all;
+  if (all instanceof Vector) return all.axes ? rowsOf(all) : all;
   if (all instanceof Map) return [...all.keys()];
   return all[Symbol.iterator] ? [...all] : Object.values(all);
 }
@@ -193,12 +186,23 @@ export function with_middle(all, before, after) {
 }
 export function item(all, key) {
   if (all instanceof Map) return all.get(key);
-  if (Array.isArray(key)) return vector(key.length, (i) => all[key[i]]);
+  if (all instanceof Vector && !(typeof key === "number" && !all.axes)) return at(all, keysOf(key));
   const found = typeof all === "string" ? all : iter(all);
   return found[key < 0 ? found.length + key : key];
 }
-export const set_item = (all, key, value) => (all instanceof Map ? all.set(key, value) : (all[key] = value));
+/** The indices of an array: a tuple has one for each axis, a list has several of the first axis. */
+function keysOf(key) {
+  if (!Array.isArray(key)) return [key];
+  return key.some((one) => one === null || one instanceof Slice) ? key : [array(key)];
+}
+export function set_item(all, key, value) {
+  if (all instanceof Map) all.set(key, value);
+  else if (all instanceof Vector) put(all, key, value);
+  else all[key] = value;
+}
+export const slice = (...ends) => (ends.length === 1 ? new Slice(null, ends[0]) : new Slice(...ends));
 export function sliced(all, start, end, step) {
+  if (all instanceof Vector && step === null) return at(all, [new Slice(start, end)]);
   const found = typeof all === "string" ? all : iter(all);
   const part = found.slice(start ?? 0, end ?? undefined);
   return step === -1 ? [...part].reverse() : part;
@@ -234,7 +238,28 @@ function compare(a, b) {
   }
   return a < b ? -1 : Number(a > b);
 }
-export const sorted = (all) => list(all).sort(compare);
+export const sorted = (all, { key = (one) => one } = {}) => list(all).sort((one, other) => compare(key(one), key(other)));
+/** Add a value to a heap, whose least value is first. */
+export function heappush(heap, one) {
+  let i = heap.push(one) - 1;
+  for (; i > 0 && compare(one, heap[(i - 1) >> 1]) < 0; i = (i - 1) >> 1) heap[i] = heap[(i - 1) >> 1];
+  heap[i] = one;
+}
+/** Take the least value of a heap. */
+export function heappop(heap) {
+  const [least, last] = [heap[0], heap.pop()];
+  const n = heap.length;
+  if (n === 0) return least;
+  let i = 0;
+  for (let child = 1; child < n; child = 2 * i + 1) {
+    if (child + 1 < n && compare(heap[child + 1], heap[child]) < 0) child++;
+    if (compare(last, heap[child]) <= 0) break;
+    heap[i] = heap[child];
+    i = child;
+  }
+  heap[i] = last;
+  return least;
+}
 const extreme = (sign) =>
   function (...given) {
     const last = given[given.length - 1];
@@ -267,7 +292,7 @@ export const values_ = (map) => [...map.values()];
 export const get_ = (map, key, otherwise = null) => (map.has(key) ? map.get(key) : otherwise);
 export const append_ = (all, one) => all.push(one);
 export const pop_ = (all) => all.pop();
-export const tolist_ = (all) => Array.from(all);
+export const tolist_ = (all) => (all.axes ? rowsOf(all).map(tolist_) : Array.prototype.slice.call(all));
 export const round_ = (all, digits) => all.map((one) => round(one, digits));
 export const any_ = (all) => all.some(truth);
 export const copy_ = (all) => all.slice();
@@ -276,15 +301,19 @@ export const index_ = (all, one) => all.findIndex((other) => eq(one, other));
 
 // Functions
 
-export const abs = (a) => (a instanceof Complex ? Math.hypot(a.real, a.imag) : Math.abs(a));
+const size = unary(Math.abs);
+export const abs = (a) => (a instanceof Complex ? Math.hypot(a.real, a.imag) : size(a));
 export const float = Number;
+export const bool = Boolean;
 export const int = (a) => Math.trunc(number(a));
 export { makeComplex as complex };
 const makeComplex = (real, imag) => new Complex(real, imag);
 const DEGREE = Math.PI / 180;
 export const math = {
-  ...Object.fromEntries(["sin", "cos", "tan", "atan", "atan2", "sqrt", "hypot", "floor", "ceil", "trunc"].map((name) => [name, Math[name]])),
+  ...Object.fromEntries(["sin", "cos", "tan", "acos", "atan", "atan2", "sqrt", "hypot", "floor", "ceil", "trunc"].map((name) => [name, Math[name]])),
   pi: Math.PI,
+  tau: 2 * Math.PI,
+  dist: ([x, y], [a, b]) => Math.hypot(a - x, b - y),
   inf: Infinity,
   nan: NaN,
   isfinite: Number.isFinite,
@@ -306,46 +335,16 @@ export const cmath = {
     return new Complex(Math.exp(real) * Math.cos(imag), Math.exp(real) * Math.sin(imag));
   },
 };
-/** A function of numbers for each element of arrays, and for numbers. */
-const each =
-  (change) =>
-  (...given) => {
-    const length = given.find(isList)?.length;
-    if (length === undefined) return change(...given);
-    return vector(length, (i) => change(...given.map((one) => (isList(one) ? one[i] : one))));
-  };
-/** The same for a function that gives several numbers: an array of each. */
+/** A function of numbers that gives one or several, for each element of arrays: an array of each. */
 export const elementwise =
   (change) =>
   (...given) => {
     const length = given.find(isList)?.length;
     if (length === undefined) return change(...given);
     const found = Array.from({ length }, (_, i) => change(...given.map((one) => (isList(one) ? one[i] : one))));
-    return found[0].map((_, column) => vector(length, (i) => found[i][column]));
+    if (length > 0 && typeof found[0] === "number") return array(found);
+    return (found[0] ?? []).map((_, column) => filled([length], (i) => found[i][column]));
   };
-export const np = {
-  ...Object.fromEntries(["sin", "cos", "hypot", "radians", "degrees"].map((name) => [name, each(math[name])])),
-  arctan2: each(Math.atan2),
-  isnan: each((a) => Number(Number.isNaN(a))),
-  array: (all) => Vector.from(all),
-  asarray: (all) => (isList(all) ? Vector.from(all) : all),
-  arange: (count) => vector(count, (i) => i),
-  full: (count, value) => vector(count, () => value),
-  full_like: (all, value) => vector(all.length, () => value),
-  searchsorted: (all, found) => found.map((one) => all.findLastIndex((other) => other < one) + 1),
-  broadcast_arrays: (...all) => all,
-  linspace: (start, end, count) => vector(count, (i) => (i === count - 1 ? end : start + (i * (end - start)) / (count - 1))),
-  concatenate(all) {
-    const found = new Vector(sum(all.map(len)));
-    let end = 0;
-    for (const one of all) {
-      found.set(one, end);
-      end += one.length;
-    }
-    return found;
-  },
-};
-
 // Words and statuses of the kernel, which are numbers there
 
 /** The letters of a word. */

@@ -18,7 +18,7 @@ import { decimalsOfStep, fixed, lengthUnit, roundStep } from "../shared/units.js
 const LEAST_SPACING_PX = 84;
 
 // Labels keep clear of the buttons, the corner with the unit, and the edges; pixels.
-const LABELS = { left: 56, right: 30, top: 166, bottom: 30 };
+const LABELS = { left: 56, right: 30, top: 240, bottom: 30 };
 
 /**
  * The spacing of the grid in the unit shown, and that unit's name and size in metres.

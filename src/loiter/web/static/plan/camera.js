@@ -14,6 +14,7 @@
 import { byId } from "../shared/dom.js";
 import { contains, fitted, unitVector, zoomed } from "../shared/geometry.js";
 import { splitAnswer } from "../shared/maneuver.js";
+import { zonePoints } from "../scene/fence.js";
 import { tidy } from "../shared/units.js";
 import { HEADING_HANDLE_PX } from "./handles.js";
 import { turnRadiusOf } from "../shared/turning.js";
@@ -156,12 +157,14 @@ function marginsOf({ width, height }) {
  * @param {boolean} isFirst
  * @returns {Point[]}
  */
-function contentsOf({ scene: { pose, orbit }, answer }, isFirst) {
+function contentsOf({ scene, answer }, isFirst) {
+  const { pose, orbit } = scene;
   const { best, others } = answer ? splitAnswer(answer) : { best: [], others: [] };
   const centres = best.map(({ join_over_ground: centre }) => [centre.centre_east_m, centre.centre_north_m]);
   const r = Math.abs(orbit.radius_m);
   return [
     [pose.east_m, pose.north_m],
+    ...(isFirst ? zonePoints(scene) : []),
     ...[...best, ...(isFirst ? others : [])].flatMap(({ track }) => track.east_m.map((east, i) => /** @type {Point} */ ([east, track.north_m[i]]))),
     ...[[orbit.east_m, orbit.north_m], ...centres].flatMap(([east, north]) => [
       /** @type {Point} */ ([east - r, north - r]),

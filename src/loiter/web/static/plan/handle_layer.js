@@ -41,7 +41,7 @@ export function createHandles(root, layer, store, actions) {
 }
 
 /** @param {Store} store @returns {Stage} */
-const stageOf = (store) => stageAt(store.get());
+export const stageOf = (store) => stageAt(store.get());
 
 /** What handles depend on. @param {PageState} state @returns {Stage} */
 export function stageAt({ camera, scene, units, radiusBearing_deg }) {
@@ -62,7 +62,7 @@ function rotate(layer, selector, deg) {
  * @param {Store} store
  * @param {Actions} actions
  */
-function connect(group, root, handle, store, actions) {
+export function connect(group, root, handle, store, actions) {
   const stage = () => stageOf(store);
   makeHandle(group, root, handle.label, {
     begin: () => handle.dragBegins?.(stage()),
@@ -73,6 +73,7 @@ function connect(group, root, handle, store, actions) {
       actions.changeScene(scene, event);
     },
     moveBy: (right, up, event) => actions.changeScene(handle.moveBy(stage(), right, up), event),
+    remove: handle.remove && ((event) => actions.changeScene(/** @type {any} */ (handle).remove(stage()), event)),
   });
 }
 

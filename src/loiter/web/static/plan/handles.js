@@ -23,12 +23,14 @@
  * @property {(stage: Stage, right: number, up: number) => Scene} moveBy  the scene after steps of the arrow keys
  * @property {(stage: Stage, point: Point) => number} [bearing]  of the handle of the radius after a drag
  * @property {(stage: Stage) => void} [dragBegins]
+ * @property {(stage: Stage) => Scene} [remove]  the scene without what the handle moves
  * @property {(scene: Scene) => number} value  for assistive software
  * @property {(scene: Scene, units: Units) => string} text  for assistive software
  */
 import { withOrbit, withPose } from "../scene/scene.js";
+import { zoneHandles } from "../scene/fence.js";
 import { svg } from "../shared/dom.js";
-import { headingOf, pointAt, positionToScreen, toWorld, wrapped } from "../shared/geometry.js";
+import { headingOf, pointAt, positionToScreen, toScreen, toWorld, wrapped } from "../shared/geometry.js";
 import { decimalsFor, fixed, quantityText, tidy } from "../shared/units.js";
 import { gridOf } from "./background.js";
 
@@ -42,13 +44,13 @@ export const HEADING_HANDLE_PX = 62;
 const LEAST_RADIUS_PX = 30; // from the centre to the handle of the radius
 
 /** The step of an arrow key, metres: a twentieth of the spacing of the grid. @param {Stage} stage */
-function stepOf({ view, units }) {
+export function stepOf({ view, units }) {
   const { step, size } = gridOf(view, units);
   return (step * size) / 20;
 }
 
 /** The resolution of a drag, metres: a tenth of a pixel. @param {View} view */
-const resolutionOf = (view) => 0.1 / view.scale;
+export const resolutionOf = (view) => 0.1 / view.scale;
 
 /** A position after a drag or a key. @param {Stage} stage @param {Point} point east and north */
 function tidyPosition({ view }, [east, north]) {
@@ -70,7 +72,7 @@ const centrePoint = ({ view, scene }) => positionToScreen(view, scene.orbit);
 const bearingBetween = (from, to) => headingOf(to[0] - from[0], from[1] - to[1]);
 
 /** @param {{east_m: number, north_m: number}} position @param {Scene} scene @param {Units} units */
-function positionText({ east_m, north_m }, { orbit }, units) {
+export function positionText({ east_m, north_m }, { orbit }, units) {
   const length = (/** @type {number} */ metres) =>
     quantityText(metres, "length", units, decimalsFor(orbit.radius_m, units));
   return `${length(east_m)} east, ${length(north_m)} north`;
@@ -135,8 +137,9 @@ function radiusPoint(stage) {
   return pointAt(centrePoint(stage), stage.radiusBearing_deg, Math.max(LEAST_RADIUS_PX, radius_px));
 }
 
-/** Where the handles of aircraft and circle are. @param {Stage} stage */
+/** Where the handles of aircraft, circle and fence are. @param {Stage} stage */
 export const handlePoints = (stage) => [
+  ...zoneHandles(stage.scene).map(([east, north]) => toScreen(stage.view, east, north)),
   aircraftPoint(stage),
   HEADING.position(stage),
   centrePoint(stage),

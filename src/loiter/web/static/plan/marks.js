@@ -32,8 +32,9 @@ const COST = { point: 1, box: 100, edge: 1000 };
  * @param {Maneuver[]} others
  * @param {Scene} scene
  * @param {Box[]} boxes  that no label may cover: the dial of the wind, buttons, the key
+ * @param {{point: Point, text: string}[]} breaches  where the plan enters the fence
  */
-export function drawMarks(view, best, others, scene, boxes) {
+export function drawMarks(view, best, others, scene, boxes, breaches) {
   const flown = best.filter(({ segments }) => segments.length > 0);
   const covered = flown.flatMap((maneuver) => coveredPoints(view, maneuver, scene));
   const taken = [...boxes, ...numberStrips(view)];
@@ -48,7 +49,8 @@ export function drawMarks(view, best, others, scene, boxes) {
   }));
   const peelOffs = flown.flatMap((maneuver) => peelOffLabels(view, maneuver, scene));
   const words = others.map(({ track, word }) => ({ point: middleOf(view, track), text: word, most: COST.box, kind: "other" }));
-  return [...dots, ...[...joins, ...peelOffs, ...words].flatMap((one) => label(view, one, covered, taken))];
+  const entered = breaches.map((breach) => ({ ...breach, most: Infinity, kind: "entered" }));
+  return [...dots, ...[...joins, ...entered, ...peelOffs, ...words].flatMap((one) => label(view, one, covered, taken))];
 }
 
 /** Half way along a track. @param {View} view @param {Maneuver["track"]} track */

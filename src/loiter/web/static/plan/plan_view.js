@@ -12,21 +12,23 @@ import { boxWithin, byId, fill, observeSize, setAttributes, setSize, show, svg, 
 import { orbitMoves } from "../scene/scene.js";
 import { positionToScreen, toScreen } from "../shared/geometry.js";
 import { splitAnswer } from "../shared/maneuver.js";
+import { decimalsFor, quantityText } from "../shared/units.js";
 import { ghostOf } from "../state/page_state.js";
 import { drawCircle, drawGrid } from "./background.js";
 import { scaleLimits } from "./camera.js";
 import { gestures } from "./gestures.js";
 import { createHandles, stageAt } from "./handle_layer.js";
 import { AEROPLANE } from "./handles.js";
+import { breachMark, fenceBoxes, fenceLayer } from "./fence_layer.js";
 import { drawMarks } from "./marks.js";
-import { drawBest, drawOther, placeCallout } from "./paths.js";
+import { drawBest, drawBlocked, drawOther, placeCallout } from "./paths.js";
 import { raceLayer } from "./race_layer.js";
 import { dialBox } from "./wind_handle.js";
 
 /** @param {Store} store @param {Actions} actions @param {PlanCamera} camera */
 export function planView(store, actions, camera) {
   const root = byId("plan", SVGSVGElement);
-  const layers = svgLayers("grid", "circle", "others", "rivals", "best", "marks", "wind", "handles");
+  const layers = svgLayers("grid", "fence", "circle", "others", "rivals", "blocked", "best", "marks", "wind", "handles");
   const { handles, ...below } = layers;
   const ghost = svg("g", { class: "ghost" }, [svg("path", { d: AEROPLANE })]);
   const moving = svg("circle", { class: "moving" });
@@ -45,6 +47,7 @@ export function planView(store, actions, camera) {
   gestures(root, camera);
   zoomButtons(store, camera);
   createHandles(root, handles, store, actions);
+  fenceLayer(root, layers.fence, handles, store, actions);
   watchScene(root, layers, store, () => overlays);
   watchPointed(layers.others, ".other", actions.highlight);
   watchHighlight(root, layers.others, callout, store);
@@ -91,7 +94,7 @@ function watchScene(root, layers, store, overlays) {
   );
   // Not after a change of the scene: the paths are drawn when its answer arrives.
   store.watch(
-    ({ camera, answer }) => [camera, answer],
+    ({ camera, answer, clear, units }) => [camera, answer, clear, units],
     (state) => drawPaths(layers, state, overlays),
   );
 }
@@ -106,12 +109,26 @@ function drawPaths(layers, state, overlays) {
     camera: { view },
     scene,
     answer,
+    clear,
   } = state;
-  if (!answer) return [layers.best, layers.others, layers.marks].forEach((layer) => fill(layer, []));
-  const { best, others } = splitAnswer(answer);
+  if (!answer) return [layers.best, layers.others, layers.blocked, layers.marks].forEach((layer) => fill(layer, []));
+  const { best: fastest, others } = splitAnswer(answer);
+  const best = clear?.maneuver ? [clear.maneuver] : fastest;
   fill(layers.best, best.flatMap((maneuver) => drawBest(view, maneuver)));
+  fill(layers.blocked, clear?.maneuver ? fastest.map((maneuver) => drawBlocked(view, maneuver)) : []);
   fill(layers.others, others.map((other) => drawOther(view, other, scene)));
-  fill(layers.marks, drawMarks(view, best, others, scene, [dialBox(stageAt(state)), ...overlays()]));
+  const breaches = breachesOf(state);
+  const marks = drawMarks(view, best, others, scene, [dialBox(stageAt(state)), ...overlays(), ...fenceBoxes(state)], breaches);
+  fill(layers.marks, [...breaches.map(({ point }) => breachMark(point)), ...marks]);
+}
+
+/** Where the plan enters zones, or is too close to them, and by how much. @param {PageState} state */
+function breachesOf({ camera: { view }, scene, fence, units }) {
+  return (fence?.check?.breaches ?? []).map((breach) => {
+    const length = quantityText(Math.abs(breach.clearance_m), "length", units, decimalsFor(scene.orbit.radius_m, units));
+    const text = breach.enters ? `${length} into ${breach.zone}` : `${length} from ${breach.zone}`;
+    return { point: positionToScreen(view, breach), text };
+  });
 }
 
 /**
@@ -144,7 +161,7 @@ function watchHighlight(root, others, callout, store) {
  */
 function watchGhost(ghost, moving, store) {
   store.watch(
-    (state) => [state.playback.time_s, state.playback.playing, state.answer, state.camera],
+    (state) => [state.playback.time_s, state.playback.playing, state.answer, state.clear, state.camera],
     (state) => {
       const { camera } = state;
       const instant = ghostOf(state);

@@ -48,6 +48,9 @@ export const certificateOf = (scene) => answer(() => engine.certificate(scene));
 /** The map of the reduced plane, computed in small steps, so that the page stays quick. @param {MapQuery} query */
 export const mapOf = (query) => engine.synthesis(query);
 
+/** Whether the plan of a scene stays clear of its fence. @param {Scene} scene */
+export const fenceCheckOf = (scene) => answer(() => engine.fenceCheck(scene));
+
 /** A file of the plan. @param {string} format @param {Scene & Altitude} options */
 export async function fileOf(format, options) {
   if (format === "png") return pngOf(answer(() => engine.file("svg", options)));

@@ -7,7 +7,8 @@
  */
 import { refusalOf } from "../fields/field_names.js";
 import { NO_MESSAGE } from "../state/page_state.js";
-import { Problem, lapOf, planOf, raceOf } from "./api.js";
+import { zonesOf } from "../scene/fence.js";
+import { Problem, fenceCheckOf, lapOf, planOf, raceOf } from "./api.js";
 
 /**
  * A function that applies changes to the state, with the plan of the scene.
@@ -25,18 +26,32 @@ export function planRequest(store) {
 /** @param {PageState} state @returns {Partial<PageState>} */
 function outcome(state) {
   try {
+    const answer = planOf(state.scene);
+    const fence = fenceOf(state);
     return {
-      answer: planOf(state.scene),
+      answer,
+      fence,
+      clear: null,
       lap: null,
       race: null,
       failure: null,
       proof: null,
       faults: { ...state.faults, certificate: null },
       fieldErrors: { ...state.fieldErrors, scene: {} },
-      requests: { plan: "idle", certificate: "stale", map: "stale" },
+      requests: { plan: "idle", certificate: "stale", map: "stale", clear: fence?.check?.clear === false ? "stale" : "idle" },
     };
   } catch (error) {
     return failed(state, /** @type {Error} */ (error));
+  }
+}
+
+/** @param {PageState} state @returns {PageState["fence"]} */
+function fenceOf({ scene, units }) {
+  if (zonesOf(scene).length === 0) return null;
+  try {
+    return { check: fenceCheckOf(scene), refusal: "" };
+  } catch (error) {
+    return { check: null, refusal: refusalOf(/** @type {Error} */ (error), units).sentence };
   }
 }
 
@@ -52,14 +67,17 @@ function failed({ playback, fieldErrors, failure, message, units }, error) {
     message: failure ? message : NO_MESSAGE,
     playback: { ...playback, playing: false },
     fieldErrors: { ...fieldErrors, scene: fields },
-    requests: { plan: "failed", certificate: "stale", map: "stale" },
+    fence: null,
+    clear: null,
+    requests: { plan: "failed", certificate: "stale", map: "stale", clear: "idle" },
   };
 }
 
 /** The race of a plan, and as many laps after it as the race takes. @param {PageState} state @returns {Partial<PageState>} */
-export function raceRequest({ scene, answer }) {
+export function raceRequest({ scene, answer, clear }) {
   if (!answer) return {};
   const race = raceOf(scene);
+  if (clear?.maneuver) return { race, lap: clear.lap };
   const end_s = Math.max(...race.map(({ track }) => track.time_s.at(-1) ?? 0));
   const lap_s = (lapOf(scene).time_s.at(-1) ?? 0) - answer.duration_s;
   return { race, lap: lapOf(scene, Math.max(1, Math.ceil((end_s - answer.duration_s) / lap_s))) };

@@ -7,6 +7,7 @@
  * @typedef {ReturnType<typeof createRequests>} Requests
  */
 import { PAUSE_MS, debounced } from "../shared/dom.js";
+import { clearRequest } from "./clear_request.js";
 import { certificateRequest, mapRequest } from "./pause_requests.js";
 import { planRequest, raceRequest } from "./plan_request.js";
 
@@ -14,6 +15,7 @@ import { planRequest, raceRequest } from "./plan_request.js";
 export function createRequests(store) {
   const askCertificate = certificateRequest(store);
   const askMap = mapRequest(store);
+  const askClear = clearRequest(store);
 
   const pauseLater = debounced(PAUSE_MS, () => {
     const { failure, answer, revision } = store.get();
@@ -21,6 +23,7 @@ export function createRequests(store) {
     store.update({ announced: answer, pausedRevision: revision });
     askMap(answer);
     askCertificate();
+    askClear();
     if (store.get().racing) store.update(raceRequest(store.get()));
   });
   store.watch(

@@ -68,7 +68,7 @@ function sceneParts(scene) {
     parts.push(`orbit-velocity=${joined([orbit.velocity_east_m_s, orbit.velocity_north_m_s], speed)}`);
   if (tolerance_m !== 0) parts.push(`tolerance=${tolerance_m}`);
   if (origin) parts.push(`origin=${joined([origin.latitude_deg, origin.longitude_deg], PLACE_DEG)}`);
-  return parts;
+  return [...parts, ...fenceParts(scene, length)];
 }
 
 /**
@@ -81,6 +81,17 @@ function sceneParts(scene) {
 function limitNumber(aircraft, limit, length) {
   const value = aircraft[limit] ?? 0;
   return limit === "min_turn_radius_m" ? -tidyAbove(-value, length) : tidyAbove(value, ANGLE_DEG);
+}
+
+/** The fence: each zone with its rule, a circle with three numbers, a polygon with two for each corner. @param {Scene} scene @param {number} length resolution */
+function fenceParts({ fence }, length) {
+  if (!fence) return [];
+  const zones = fence.zones.map((zone) => {
+    const values = "corners" in zone ? zone.corners.flat() : [zone.east_m, zone.north_m, zone.radius_m];
+    const name = encodeURIComponent(zone.name.replaceAll(",", " "));
+    return `zone=${name},${zone.inclusion ? "in" : "out"},${joined(values, length)}`;
+  });
+  return [...zones, ...(fence.margin_m === null ? [] : [`margin=${joined([fence.margin_m], length)}`])];
 }
 
 /** @param {Altitude} altitude */
@@ -118,9 +129,31 @@ function sceneOf(parameters) {
     wind: null,
     tolerance_m: numbers(parameters, "tolerance", 1, [0])[0],
     origin: parameters.has("origin") ? originOf(numbers(parameters, "origin", 2)) : null,
+    fence: fenceOf(parameters),
   };
   const [speed_m_s, from_deg] = numbers(parameters, "wind", 2, [0, 0]);
   return withWind(scene, { speed_m_s, from_deg });
+}
+
+/** @param {URLSearchParams} parameters @returns {import("../shared/types.js").Fence | null} */
+function fenceOf(parameters) {
+  const zones = parameters.getAll("zone").map(zoneOf);
+  if (zones.length === 0) return null;
+  const [margin_m] = parameters.has("margin") ? numbers(parameters, "margin", 1) : [null];
+  return { zones, margin_m };
+}
+
+/** @param {string} text @returns {import("../shared/types.js").Zone} */
+function zoneOf(text) {
+  const [name, rule, ...texts] = text.split(",");
+  const values = texts.map((one) => (one.trim() === "" ? NaN : Number(one)));
+  const isCircle = values.length === 3;
+  if (!(rule === "in" || rule === "out") || !values.every(Number.isFinite) || !(isCircle || (values.length >= 6 && values.length % 2 === 0)))
+    throw new Error(`The link's zone is "${text}": it needs a name, in or out, and three numbers for a circle or two for each corner.`);
+  const inclusion = rule === "in";
+  if (isCircle) return { name, east_m: values[0], north_m: values[1], radius_m: values[2], inclusion };
+  const corners = Array.from({ length: values.length / 2 }, (_, k) => /** @type {[number, number]} */ ([values[2 * k], values[2 * k + 1]]));
+  return { name, corners, inclusion };
 }
 
 /** @param {URLSearchParams} parameters */

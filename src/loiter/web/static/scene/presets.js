@@ -9,6 +9,10 @@
 import { byId, html } from "../shared/dom.js";
 
 const UAV = { airspeed_m_s: 18, max_bank_deg: 35 };
+/** @type {import("../shared/types.js").Zone} */
+const MAST = { name: "mast", east_m: -150, north_m: 90, radius_m: 60, inclusion: false };
+/** @type {import("../shared/types.js").Zone} */
+const FIELD = { name: "field", corners: [[-500, -150], [150, -150], [150, 250], [-500, 250]], inclusion: true };
 const UNIT = { airspeed_m_s: 1, min_turn_radius_m: 1 };
 
 /**
@@ -40,6 +44,7 @@ export const PRESETS = [
   { name: "Beside the circle", scene: scene([90, 60, 100], 80, UAV) },
   { name: "Far away", scene: scene([-1200, 500, 20], 80, UAV) },
   { name: "Inside the circle", scene: scene([20, -60, 30], 120, UAV) },
+  { name: "Round a fence", scene: { ...scene([-400, 120, 90], 80, UAV), fence: { zones: [MAST, FIELD], margin_m: null } } },
   { name: "In wind", scene: scene([-400, 120, 90], 120, UAV, { speed_m_s: 8, from_deg: 250 }) },
   { name: "Paper, example 1", scene: scene([4, 4, 90], 1, UNIT) },
   { name: "Paper, example 2", scene: scene([-0.53, 0.31, 90], 1, UNIT) },

@@ -10,6 +10,7 @@
  * @property {() => Point} position  of the handle now, pixels of the drawing
  * @property {(point: Point, event: Event) => void} dragTo
  * @property {(right: number, up: number, event: Event) => void} moveBy  steps: 1, or 10 with the shift key
+ * @property {(event: Event) => void} [remove]  the key Delete removes what the handle moves
  */
 import { setAttributes } from "./dom.js";
 
@@ -52,6 +53,10 @@ export function makeHandle(group, drawing, label, moves) {
   followPointer(group, drawing, moves);
   group.addEventListener("keydown", (event) => {
     const arrow = ARROWS[event.key];
+    if (moves.remove && ["Delete", "Backspace"].includes(event.key)) {
+      moves.remove(event);
+      return event.preventDefault();
+    }
     if (!arrow || isShortcut(event)) return;
     const steps = event.shiftKey ? 10 : 1;
     moves.moveBy(arrow[0] * steps, arrow[1] * steps, event);

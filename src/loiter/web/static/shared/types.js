@@ -26,6 +26,32 @@
  * @property {Wind | null} wind
  * @property {number} tolerance_m
  * @property {Origin | null} origin
+ * @property {Fence | null} [fence]
+ *
+ * @typedef {{name: string, east_m: number, north_m: number, radius_m: number, inclusion: boolean}} CircleZone
+ * @typedef {{name: string, corners: [number, number][], inclusion: boolean}} PolygonZone  east and north of its corners
+ * @typedef {CircleZone | PolygonZone} Zone  to stay inside (`inclusion`) or outside
+ * @typedef {{zones: Zone[], margin_m: number | null}} Fence  with the library's own margin where that is null
+ *
+ * @typedef {object} Breach  a zone that is entered, or to which the path comes closer than the margin
+ * @property {string} zone
+ * @property {boolean} enters
+ * @property {boolean} holding
+ * @property {number} clearance_m
+ * @property {number} time_s
+ * @property {number} east_m
+ * @property {number} north_m
+ *
+ * @typedef {{clear: boolean, margin_m: number, closest: Breach, breaches: Breach[], sentence: string}} FenceCheck
+ *
+ * @typedef {object} ClearEntry  the fastest clear entry that is found
+ * @property {string} sentence
+ * @property {number | null} later_s
+ * @property {number | null} least_s  no clear entry takes less; null where there is none
+ * @property {string[]} blocking
+ * @property {string | null} instruction
+ * @property {Track | null} lap
+ * @property {Maneuver | null} maneuver
  *
  * @typedef {"msl" | "home" | "ground"} Reference  the level from which an altitude is measured
  * @typedef {object} Altitude  the altitude of missions, as far as the user has given it; metres

@@ -86,8 +86,8 @@ export function createActions(store, requests, latency) {
     /** @param {boolean} playing */
     play(playing) {
       const { time_s } = store.get().playback;
-      const { scene, lap } = store.get();
-      if (playing && !lap) store.update({ lap: lapOf(scene) });
+      const { scene, lap, clear } = store.get();
+      if (playing && !lap) store.update({ lap: clear?.maneuver ? clear.lap : lapOf(scene) });
       setPlayback({ playing, time_s: playing && time_s >= endOf(store.get()) ? 0 : time_s });
     },
     /** Begin or end the race with other guidance laws. @param {boolean} racing */

@@ -10,6 +10,7 @@
  * @typedef {import("../shared/types.js").Altitude} Altitude
  * @typedef {import("../shared/types.js").Origin} Origin
  * @typedef {import("../shared/types.js").Synthesis} Synthesis
+ * @typedef {import("../shared/types.js").FenceCheck} FenceCheck
  * @typedef {import("../shared/geometry.js").View} View
  *
  * @typedef {"idle" | "stale" | "asking" | "failed"} Status
@@ -57,11 +58,14 @@
  * @property {number} step  number of the step of the user that led here, for undo and the browser's Back
  * @property {number} lastStep  the newest step; larger than `step` after an undo
  * @property {number} pausedRevision  number of the newest scene after which a drag has paused
- * @property {Record<"plan" | "certificate" | "map", Status>} requests
+ * @property {Record<"plan" | "certificate" | "map" | "clear", Status>} requests
  * @property {Answer | null} answer  the newest plan
  * @property {import("../shared/types.js").Track | null} lap  rounds of the circle after joining, once they are played
  * @property {boolean} racing  whether other guidance laws are flown too
  * @property {import("../shared/types.js").Racer[] | null} race  their flights, once they are computed
+ * @property {{check: FenceCheck | null, refusal: string} | null} fence  whether the plan stays clear of the scene's
+ *   fence, or why that is not known
+ * @property {import("../shared/types.js").ClearEntry | null} clear  the search for a clear entry, where the plan is not
  * @property {Failure | null} failure
  * @property {Answer | null} announced  the plan of the last pause: its text is read out and can be copied
  * @property {Proof | null} proof  the certificate of the plan
@@ -98,11 +102,13 @@ export const INITIAL_STATE = {
   pausedRevision: 0,
   step: 0,
   lastStep: 0,
-  requests: { plan: "idle", certificate: "idle", map: "idle" },
+  requests: { plan: "idle", certificate: "idle", map: "idle", clear: "idle" },
   answer: null,
   lap: null,
   racing: false,
   race: null,
+  fence: null,
+  clear: null,
   failure: null,
   announced: null,
   proof: null,
@@ -119,8 +125,11 @@ export const INITIAL_STATE = {
 /** The plan of the present scene, or null while there is none. @param {PageState} state */
 export const currentPlan = ({ requests, answer }) => (requests.plan === "idle" ? answer : null);
 
-/** The duration of the newest plan, seconds. @param {PageState} state */
-export const durationOf = ({ answer }) => answer?.duration_s ?? 0;
+/** What is flown: the newest plan or, where that is not clear of the fence, the clear entry. @param {PageState} state */
+export const flownOf = ({ answer, clear }) => answer && (clear?.maneuver ?? answer);
+
+/** The duration of what is flown, seconds. @param {PageState} state */
+export const durationOf = (state) => flownOf(state)?.duration_s ?? 0;
 
 /** The time on the path that is shown, seconds. @param {PageState} state */
 export const shownTime = (state) => Math.min(state.playback.time_s, durationOf(state));
@@ -129,7 +138,7 @@ export const shownTime = (state) => Math.min(state.playback.time_s, durationOf(s
 export function isSettled({ revision, pausedRevision, failure, requests }) {
   if (pausedRevision !== revision) return false;
   const done = (/** @type {Status} */ status) => status === "idle" || status === "failed";
-  return failure !== null || (done(requests.certificate) && done(requests.map));
+  return failure !== null || (done(requests.certificate) && done(requests.map) && done(requests.clear));
 }
 
 /** The time at which the playback ends, seconds: after a lap of the circle. @param {PageState} state */
@@ -137,9 +146,10 @@ export const endOf = (state) => state.lap?.time_s.at(-1) ?? durationOf(state);
 
 /** The state of the ghost (the moving copy of the aircraft); null while it is at the start. @param {PageState} state */
 export function ghostOf(state) {
-  const { answer, playback, lap } = state;
+  const { playback, lap } = state;
+  const flown = flownOf(state);
   const { playing, time_s } = playback;
-  if (!answer || !(playing || time_s > 0)) return null;
+  if (!flown || !(playing || time_s > 0)) return null;
   if (lap && time_s > durationOf(state)) return stateAt(lap, time_s);
-  return answer.segments.length > 0 ? stateAt(answer.track, shownTime(state)) : null;
+  return flown.segments.length > 0 ? stateAt(flown.track, shownTime(state)) : null;
 }

@@ -9,7 +9,7 @@
  */
 import { byId, fill, observeSize, setAttributes, setSize, show, svg, svgLayers } from "../shared/dom.js";
 import { pointOf } from "../shared/draggable.js";
-import { durationOf, shownTime } from "../state/page_state.js";
+import { durationOf, flownOf, shownTime } from "../state/page_state.js";
 import { drawAxis, drawControls, drawReadings, drawSeries, drawSwitches, heightOf, timeScale } from "./bands.js";
 
 const LEAST_WIDTH_PX = 260;
@@ -45,16 +45,19 @@ const scaleNow = (store) => timeScale(store.get().timelineWidth, durationOf(stor
  */
 function watchPlan(root, { back, strip, lines, ticks }, store) {
   store.watch(
-    ({ answer, timelineWidth, theory }) => [answer, timelineWidth, theory],
-    ({ answer }) => {
-      if (!answer) return;
-      fill(strip, drawControls(answer.segments, scaleNow(store)));
-      fill(ticks, [...drawAxis(scaleNow(store)), ...drawSwitches(answer.segments, scaleNow(store))]);
+    (state) => [flownOf(state), state.timelineWidth, state.theory],
+    (state) => {
+      const flown = flownOf(state);
+      if (!flown) return;
+      fill(strip, drawControls(flown.segments, scaleNow(store)));
+      fill(ticks, [...drawAxis(scaleNow(store)), ...drawSwitches(flown.segments, scaleNow(store))]);
     },
   );
   store.watch(
-    ({ proof, timelineWidth }) => [proof, timelineWidth],
-    ({ proof }) => {
+    ({ proof, clear, timelineWidth }) => [proof, clear, timelineWidth],
+    ({ proof, clear }) => {
+      // The certificate is that of the plan, not of the entry round a fence.
+      if (clear?.maneuver) return [back, lines].forEach((layer) => fill(layer, []));
       // The lines of the previous certificate stay visible, drawn faintly.
       root.classList.toggle("unproved", proof === null);
       if (!proof) return;
@@ -68,12 +71,13 @@ function watchPlan(root, { back, strip, lines, ticks }, store) {
 /** @param {SVGPathElement} cursor @param {SVGGElement} reads @param {Store} store */
 function watchTime(cursor, reads, store) {
   store.watch(
-    (state) => [shownTime(state), state.answer, state.proof, state.timelineWidth, state.theory],
+    (state) => [shownTime(state), flownOf(state), state.proof, state.timelineWidth, state.theory],
     (state) => {
       const time = shownTime(state);
       setAttributes(cursor, { d: `M${scaleNow(store).x(time).toFixed(1)} 0V${scaleNow(store).axis - 10}` });
-      show(reads, state.proof !== null);
-      if (state.proof) fill(reads, drawReadings(state.proof, time, scaleNow(store)));
+      const isProved = state.proof !== null && !state.clear?.maneuver;
+      show(reads, isProved);
+      if (isProved && state.proof) fill(reads, drawReadings(state.proof, time, scaleNow(store)));
     },
   );
 }

@@ -1,0 +1,37 @@
+// @ts-check
+/**
+ * What the page says about the fence: whether the plan stays clear, where it enters and how deep, and the fastest clear
+ * entry.
+ *
+ * @typedef {import("../state/store.js").Store} Store
+ * @typedef {import("../state/page_state.js").PageState} PageState
+ */
+import { zonesOf } from "../scene/fence.js";
+import { byId, setText, show } from "../shared/dom.js";
+import { sentenceIn, timeDifference } from "../shared/units.js";
+
+/** @param {Store} store */
+export function fenceVerdict(store) {
+  const line = byId("fence-verdict", HTMLElement);
+  store.watch(
+    ({ scene, fence, clear, requests, failure, units }) => [scene.fence, fence, clear, requests.clear, failure, units],
+    (state) => {
+      show(line, zonesOf(state.scene).length > 0 && !state.failure);
+      setText(line, fenceText(state));
+      line.className = state.fence?.check?.clear ? "clear" : state.clear?.maneuver ? "round" : "blocked";
+    },
+  );
+}
+
+/** @param {PageState} state */
+export function fenceText({ fence, clear, requests, units, scene }) {
+  if (!fence) return "";
+  if (!fence.check) return fence.refusal;
+  const checked = sentenceIn(fence.check.sentence, units);
+  if (fence.check.clear) return checked;
+  if (fence.refusal) return `${checked} ${fence.refusal}`;
+  if (!clear) return `${checked}${requests.clear === "idle" ? "" : " Looking for a clear entry …"}`;
+  if (!clear.maneuver) return `${checked} ${clear.sentence}`;
+  const later = `joins ${timeDifference(clear.later_s ?? 0, scene)} later`;
+  return `${checked} The fastest clear entry found, drawn here, ${later}.`;
+}
