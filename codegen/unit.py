@@ -59,7 +59,7 @@ static inline void {ring}_append({ring} *ring, {element} last) {{
 }}"""
 
 # Names of the C library, and of POSIX, that functions of the kernel have too.
-TAKEN = frozenset({"atan2", "acos", "sin", "cos", "hypot", "select", "l", "r"})
+TAKEN = frozenset({"atan2", "acos", "atan", "sin", "cos", "tan", "hypot", "select", "l", "r"})
 
 
 @cache

@@ -222,7 +222,7 @@ def test_entries_in_wind_that_bend_about_a_zone(hard_in_wind):
 
 
 WRONG_IN_WIND = {
-    "what touches is too near to be called clear": (airs.SteadyWind, "gap_m", 1.5 * airs.CHORD_ERROR_M),
+    "what touches is too near to be called clear": (clear_entry_module, "WIND_GAP_M", 1.5 * airs.CHORD_ERROR_M),
     "the second search has no contacts farther out": (clear_entry_module, "WIDER", ()),
 }
 

@@ -19,12 +19,12 @@ from loiter.planning.model import Aircraft, Orbit, Turn, TurnName, Wind
 from loiter.planning.slot import Slot
 
 if TYPE_CHECKING:
+    from loiter import fences
     from loiter.batch.jobs import job
     from loiter.batch.jobs.job import JobProgress as JobProgress
     from loiter.batch.jobs.job import JobSummary as JobSummary
-    from loiter.fences import Fence, PlacedFence
 else:
-    job = LazyModule("loiter.batch.jobs.job")
+    fences, job = LazyModule("loiter.fences"), LazyModule("loiter.batch.jobs.job")
 
 # A data frame of pandas, Dask, Polars or Arrow.
 AnyFrame = TypeVar("AnyFrame")
@@ -44,7 +44,7 @@ def run(
     origin: LocalFrame | None = None,
     columns: Mapping[str, str] | None = None,
     tolerance_m: float = 0.0,
-    fence: Fence | PlacedFence | None = None,
+    fence: fences.Fence | fences.PlacedFence | None = None,
     margin_m: float | None = None,
     slot: Slot | None = None,
     workers: int | None = None,
@@ -105,7 +105,7 @@ def plan(
     origin: LocalFrame | None = None,
     columns: Mapping[str, str] | None = None,
     tolerance_m: float = 0.0,
-    fence: Fence | PlacedFence | None = None,
+    fence: fences.Fence | fences.PlacedFence | None = None,
     margin_m: float | None = None,
     slot: Slot | None = None,
 ) -> AnyFrame:
