@@ -26,7 +26,7 @@
  * @property {Wind | null} wind
  * @property {number} tolerance_m
  * @property {Origin | null} origin
- * @property {Fence | null} [fence]
+ * @property {Fence | null} fence
  *
  * @typedef {{name: string, east_m: number, north_m: number, radius_m: number, inclusion: boolean}} CircleZone
  * @typedef {{name: string, corners: [number, number][], inclusion: boolean}} PolygonZone  east and north of its corners
