@@ -113,3 +113,6 @@ def test_an_indicated_airspeed_is_that_halfway_down(shown, capsys):
     assert f"Planned with that halfway between both altitudes, {middle:.4g} m/s." in shown(indicated)
     assert main(shlex.split(indicated.replace("--radius 120", "--radius 55"))) == 2
     assert f"tighter than the aircraft can turn: {radius_at_bank(top, 35.0):.4g} m" in capsys.readouterr().err
+    high = indicated.replace("--elevation 500", "--elevation 30000")
+    assert main(shlex.split(high)) == 2
+    assert "--elevation is 30000: it must be between -500 and 11000 m" in capsys.readouterr().err

@@ -79,6 +79,20 @@ def test_a_climb_is_planned_at_the_true_airspeed_halfway_and_the_circle_held_at_
     assert f"planned for {TURN_AT_TOP:.4g} m" in shown(f"{tight} 1300 --fit")
 
 
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        ("--altitude 100 --to-altitude 20000", "--to-altitude is 20000: it must be between -500 and 11000 m"),
+        ("--altitude 100 --to-altitude nan", "--to-altitude is nan: it must be a finite number of metres"),
+        ("--altitude 20000 --to-altitude 300", "--altitude is 20000: it must be between -500 and 11000 m"),
+        ("--altitude 100 --to-altitude 300 --temperature nan", "--temperature is nan: it must be a finite number"),
+    ],
+)
+def test_an_altitude_or_temperature_without_air_is_named(capsys, options, sentence):
+    assert main(shlex.split(f"{CLIMB} --orbit 0 0 80 {options}")) == 2
+    assert sentence in capsys.readouterr().err
+
+
 def test_a_temperature_falls_on_the_way_up(shown):
     """By 6.5 degrees in a kilometre, as in the standard atmosphere."""
     said = shown(f"{CLIMB} --orbit 0 0 80 --altitude 0 --to-altitude 2000 --temperature 30")

@@ -17,7 +17,7 @@ from loiter.cli.scenes import CheckedFence
 from loiter.cli.sentences import argument_names
 from loiter.cli.status import CHECK_FAILED
 from loiter.errors import InvalidArgument
-from loiter.geo import LocalFrame
+from loiter.geo import LocalFrame, density_ratio
 from loiter.geo.atmosphere import LAPSE_K_PER_M
 from loiter.io.legs import check_leg_format, leg_content
 from loiter.io.missions.items import AUTOPILOTS, AutopilotName
@@ -94,21 +94,31 @@ class LegOutput(NamedTuple):
                 write_content("save", path, content)
 
 
-def at_highest(uav: AircraftOptions, altitude_m: float | None) -> AircraftOptions:
-    """The aircraft at the higher of its altitude and another one: turns at an indicated airspeed are widest there."""
-    return uav if altitude_m is None or uav.altitude is None or altitude_m < uav.altitude else _at(uav, altitude_m)
+class LegAirspeeds(NamedTuple):
+    """The aircraft of a leg, whose true airspeed rises in thinner air where an indicated one is given.
+
+    `planned` has that halfway between the altitudes, `highest` are the options where it is largest and turns are
+    widest; `remark` is a line on the difference, or "".
+    """
+
+    planned: Aircraft
+    highest: AircraftOptions
+    remark: str
 
 
-def halfway(
-    uav: AircraftOptions, altitude_m: float | None, climb_rate_m_s: float | None, descent_rate_m_s: float | None
-) -> tuple[Aircraft, str]:
-    """The aircraft with its rates, at the true airspeed that it has halfway to another altitude; a remark, or ""."""
-    preset, remark = uav.preset(), ""
-    altitudes = {each for each in (uav.altitude, altitude_m) if each is not None}
-    if len(altitudes) == 2 and uav.indicated(preset) is not None:
-        uav = _at(uav, sum(altitudes) / 2.0)
-        remark = f"Planned with that halfway between both altitudes, {uav.aircraft(preset).airspeed_m_s:.4g} m/s."
-    return replace(uav.aircraft(preset), climb_rate_m_s=climb_rate_m_s, descent_rate_m_s=descent_rate_m_s), remark
+def leg_airspeeds(uav: AircraftOptions, other_m: float | None, argument: str) -> LegAirspeeds:
+    """The airspeeds between the altitude of the options and another one, metres, which `argument` gave.
+
+    Raises `InvalidArgument` for an altitude without air of the standard atmosphere.
+    """
+    preset = uav.preset()
+    if uav.altitude is None or other_m is None or uav.indicated(preset) is None or uav.altitude == other_m:
+        return LegAirspeeds(uav.aircraft(preset), uav, "")
+    with argument_names(altitude_m=argument):
+        density_ratio(other_m)
+    halfway = _at(uav, 0.5 * (uav.altitude + other_m)).aircraft(preset)
+    remark = f"Planned with that halfway between both altitudes, {halfway.airspeed_m_s:.4g} m/s."
+    return LegAirspeeds(halfway, uav if uav.altitude > other_m else _at(uav, other_m), remark)
 
 
 def _at(uav: AircraftOptions, altitude_m: float) -> AircraftOptions:
@@ -117,6 +127,11 @@ def _at(uav: AircraftOptions, altitude_m: float) -> AircraftOptions:
     if temperature is not None and uav.altitude is not None:
         temperature -= LAPSE_K_PER_M * (altitude_m - uav.altitude)
     return replace(uav, altitude=altitude_m, temperature=temperature)
+
+
+def with_rates(aircraft: Aircraft, climb_rate_m_s: float | None, descent_rate_m_s: float | None) -> Aircraft:
+    """The aircraft with the rates of the options."""
+    return replace(aircraft, climb_rate_m_s=climb_rate_m_s, descent_rate_m_s=descent_rate_m_s)
 
 
 def leg_lines(plan: LegPlan, frame: LocalFrame | None) -> list[RenderableType]:

@@ -8,7 +8,7 @@ from typing import Annotated
 from cyclopts import Group, Parameter
 
 from loiter.cli.coordinates import latitude, longitude
-from loiter.cli.legs import AutopilotChoice, ClimbRate, DescentRate, Json, LegOutput, Save, at_highest, halfway
+from loiter.cli.legs import AutopilotChoice, ClimbRate, DescentRate, Json, LegOutput, Save, leg_airspeeds, with_rates
 from loiter.cli.numbers import altitude, angle, check_declination, direction, metres, one, several, turn_name
 from loiter.cli.options import (
     AircraftOptions,
@@ -127,12 +127,12 @@ def land(
     )
     begun = replace(start_pose(start, air, frame), altitude_m=written_altitude(uav.altitude))
     landing = Landing(begun, target, _radius_m(radius, preset), final, Turn(turn))
-    planned, airspeed_remark = halfway(uav, elevation, climb_rate, descent_rate)
-    highest = at_highest(uav, elevation)
-    plan = plan_landing(landing, planned, air.moving_air)
+    airspeeds = leg_airspeeds(uav, elevation, "runway altitude_m")
+    plan = plan_landing(landing, with_rates(airspeeds.planned, climb_rate, descent_rate), air.moving_air)
     # Raises where the circle cannot be held in the thinnest air of the landing.
-    Problem(begun, plan.leg.orbit, highest.aircraft(preset), air.moving_air).in_wind()
-    return shown.show(plan, frame, check_fence(fence, None, plan, frame), highest.remark(preset), airspeed_remark)
+    Problem(begun, plan.leg.orbit, airspeeds.highest.aircraft(preset), air.moving_air).in_wind()
+    remarks = airspeeds.highest.remark(preset), airspeeds.remark
+    return shown.show(plan, frame, check_fence(fence, None, plan, frame), *remarks)
 
 
 def _threshold(

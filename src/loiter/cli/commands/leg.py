@@ -15,9 +15,9 @@ from loiter.cli.legs import (
     Json,
     LegOutput,
     Save,
-    at_highest,
-    halfway,
+    leg_airspeeds,
     way_out,
+    with_rates,
 )
 from loiter.cli.numbers import altitude, metres, one, several
 from loiter.cli.options import (
@@ -90,7 +90,8 @@ def leg(
     pictures: PictureOptions = PictureOptions(),
 ) -> int:
     """Plan the fastest way in, round and out of a holding circle towards a point."""
-    (problem, frame), remark = read_options(start, circle, at_highest(uav, to_altitude), air, fit=fit)
+    airspeeds = leg_airspeeds(uav, to_altitude, "to_altitude_m")
+    (problem, frame), remark = read_options(start, circle, airspeeds.highest, air, fit=fit)
     shown = LegOutput(save, autopilot, json, pictures)
     shown.check()
     if to_altitude is not None and uav.altitude is None:
@@ -98,11 +99,10 @@ def leg(
     start_at, point = replace(problem.pose, altitude_m=uav.altitude), exit_place(exit_to, exit_to_lla, frame)
     with argument_names(altitude_m="to_altitude_m"):
         asked = Leg(start_at, problem.orbit, point, hold_s=hold, turns=turns, altitude_m=to_altitude)
-    planned, airspeed_remark = halfway(uav, to_altitude, climb_rate, descent_rate)
     with fit_proposed():
         problem.in_wind()  # raises where the circle cannot be held in the thinnest air of the leg
-        plan = plan_leg(asked, planned, problem.wind)
-    return shown.show(plan, frame, check_fence(fence, circle.site, plan, frame), remark, airspeed_remark)
+        plan = plan_leg(asked, with_rates(airspeeds.planned, climb_rate, descent_rate), problem.wind)
+    return shown.show(plan, frame, check_fence(fence, circle.site, plan, frame), remark, airspeeds.remark)
 
 
 def exit_place(
