@@ -171,28 +171,28 @@ def _in_slots(s: States) -> Entries:
     x, y = (s.east_m - s.orbit_east_m) / r, (s.north_m - s.orbit_north_m) / r
     (c, v), (wx, wy) = heading_vectors()(s.heading_deg), _relative_wind(s)
     phase: Any = s.slot_phase_deg
-    rows = np.broadcast_arrays(
-        np.where(refused, nan, x), y, c, v, s.orbit_radius_m / r, s.side, wx, wy, phase, s.slot_at_s,
-        r / s.airspeed_m_s,
-    )  # fmt: skip
-    found = [_first_in_slot(*row) for row in zip(*(column.tolist() for column in rows), strict=True)]
+    problems: tuple[Any, ...] = np.where(refused, nan, x), y, c, v, s.orbit_radius_m / r, s.side, wx, wy, 0.0
+    rows = np.broadcast_arrays(*problems, phase, s.slot_at_s, r / s.airspeed_m_s)
+    found = [
+        _first_in_slot(WindProblem(*numbers), phase_deg, at_s, unit_s)
+        for *numbers, phase_deg, at_s, unit_s in zip(*(column.tolist() for column in rows), strict=True)
+    ]
     status, side, word, t1, t2, t3, azimuth, miss = np.array(found, dtype=np.float64).reshape(-1, 8).T
     word_codes, statuses, sides = (column.astype(np.int8) for column in (word, status, side))
     solution = t1 + t2 + t3, word_codes, np.stack([t1, t2, t3], axis=-1), statuses, sides, azimuth, miss
     return _entries_in_wind(s, r, refused, solution)
 
 
-def _first_in_slot(
-    x: float, y: float, c: float, v: float, R: float, side: int, wx: float, wy: float,
-    phase_deg: float, at_s: float, unit_s: float,
-) -> WindEntry:  # fmt: skip
-    """The fastest entry of one row into its slot, as `plan` finds it; a status where there is none."""
-    given = WindProblem(x, y, c, v, R, side, wx, wy, 0.0)
+def _first_in_slot(given: WindProblem, phase_deg: float, at_s: float, unit_s: float) -> WindEntry:
+    """The fastest entry of one row into its slot, as `plan` finds it; a status where there is none.
+
+    `unit_s` is a turn radius over the airspeed.
+    """
     status = status_of(given)
     if status != Status.OK:
         return no_entry(status)
     found = []
-    for turn in directions(TURNS[Side(side)]):
+    for turn in directions(TURNS[Side(given.side)]):
         held = given._replace(side=sign_of(turn))
         try:
             found.append(wind_solver.first_in_slot(held, phase_at_start(Slot(phase_deg, at_s), held, unit_s)))

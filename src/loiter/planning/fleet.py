@@ -129,11 +129,12 @@ def fleet(
 
     Which aircraft takes which slot, and the common phase of the slots, bring the last aircraft in soonest, and among
     such plans with the least sum of times, as far as the phases that are tried resolve it (docs/slots.md, section 5).
-    Each entry is the fastest into its slot. Where two aircraft would come closer than `separation_m`, metres, the next
-    best phase is taken that keeps it; where none of those that were tried does, aircraft that come too close to each
-    other are in different altitude layers.
-    Raises the errors of `plan`, `InvalidArgument` for no poses or more than 100 or a negative separation, and
-    `MissingPackage` without SciPy.
+    Each entry is the fastest into its slot. With `reserve`, a share from 0 to below 1, the time of an aircraft is
+    the worst for any lateness up to that share of it: slots that a late aircraft would miss are then avoided. Where
+    two aircraft would come closer than `separation_m`, metres, the next best phase is taken that keeps it; where
+    none of those that were tried does, aircraft that come too close to each other are in different altitude layers.
+    Raises the errors of `plan`, `InvalidArgument` for no poses or more than 100, a negative separation and a reserve
+    outside its range, and `MissingPackage` without SciPy.
 
     >>> from loiter import Aircraft, Orbit, Pose, fleet
     >>> poses = [Pose(-400.0, 120.0, 90.0), Pose(300.0, -500.0, 0.0), Pose(0.0, 700.0, 180.0)]

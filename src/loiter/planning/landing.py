@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from loiter.errors import InvalidArgument, WindTooStrong, instance, not_negative, number, positive
 from loiter.kernel.rounding import ROUNDING
 from loiter.planning.compass import heading_vector
-from loiter.planning.leg import Leg, LegPlan, plan_leg
+from loiter.planning.leg import SAME_TIME, Leg, LegPlan, plan_leg
 from loiter.planning.maneuver import decimals_of
 from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, TurnName, Wind, circle_radius_m
 from loiter.planning.sides import directions, sign_of
@@ -17,9 +17,6 @@ from loiter.planning.sides import directions, sign_of
 if TYPE_CHECKING:
     from numpy import float64
     from numpy.typing import NDArray
-
-# Both sides often give the same time, up to the rounding of times that halving finds.
-SAME_TIME = 1e-9
 
 
 @dataclass(frozen=True)

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 # than 1e-10 of the radius.
 MOST_HELD = 1e5 * tau
 
-# Exits whose times differ by less than this share are at the same time: rounding of the halvings that find them.
+# Times of plans that differ by less than this share are the same: rounding of the halvings that find them.
 SAME_TIME = 1e-9
 
 # Where an altitude is reached in time on a longer path alone, so many points of joining are tried, so far apart on the
@@ -238,9 +238,11 @@ def _planned(leg: Leg, problem: Problem, climb_s: float) -> LegPlan:
     )
     _check_length(out, scene)
     found = soonest_exit(out, scene)
-    hold = (_hold_in_time(found, out, scene, problem) if found.time > out.time * (1.0 + SAME_TIME) else None) or Hold(
-        maneuver(problem, *entry_before(found, out, scene)), found.width, found.time - found.path.time
-    )
+    is_late = found.time > out.time * (1.0 + SAME_TIME)
+    hold = _hold_in_time(found, out, scene, problem) if is_late else None
+    if hold is None:
+        entry, miss = entry_before(found, out, scene)
+        hold = Hold(maneuver(problem, entry, miss), found.width, found.time - found.path.time)
     exit_ = _exit_pose(orbit, out, scene, r)
     straight_m = hypot(leg.exit_to[0] - exit_.east_m, leg.exit_to[1] - exit_.north_m)
     _, speed_m_s = hold.entry.over_ground(exit_)
