@@ -62,9 +62,9 @@ def test_a_plan_flown_comes_down_the_glide_slope_over_the_runway(drawn):
     size = 1e-9 * (1.0 + hypot(*track.east_m[:1], *track.north_m[:1]) + p.duration_s * uav.airspeed_m_s)
     # Along and beside the line of the runway, from the threshold.
     along = (track.east_m + 1j * track.north_m - complex(runway.east_m, runway.north_m)) / direction(runway)
-    final = track.time_s >= p.exit_s * (1.0 + 1e-12)
+    final = track.time_s >= p.exit_s * (1.0 - 1e-12)
     assert np.abs(along.imag[final]).max() < size
-    assert p.final_m == pytest.approx(-along.real[final][0], rel=0.1)
+    assert p.final_m == pytest.approx(-along.real[final][0], abs=size)
     assert p.final_m >= landing.final_m - size
     glide = runway.altitude_m + runway.threshold_height_m - along.real * tan(radians(runway.glide_slope_deg))
     assert np.abs(track.altitude_m - glide)[final].max() < 1e-6

@@ -11,7 +11,7 @@
 /** The zones of a scene. @param {Scene} scene */
 export const zonesOf = ({ fence }) => fence?.zones ?? [];
 
-/** A scene with these zones; without zones it has no fence, but keeps its margin. @param {Scene} scene @param {Zone[]} zones @returns {Scene} */
+/** A scene with these zones; without zones it has no fence, and its margin is gone. @param {Scene} scene @param {Zone[]} zones @returns {Scene} */
 export const withZones = (scene, zones) => ({
   ...scene,
   fence: zones.length > 0 ? { margin_m: scene.fence?.margin_m ?? null, zones } : null,
