@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Iterator
+from contextlib import AbstractContextManager
 from math import inf, ldexp, nextafter, sqrt
 from random import Random
 from typing import Any, NamedTuple
@@ -137,9 +138,16 @@ def exact_times(x: Any, y: Any, R: Any) -> Iterator[tuple[str, Any]]:
         yield "LRL", first_turn(1, *a) + middle + last_turn(1, *b)
 
 
+def exactly(x: float, y: float) -> AbstractContextManager[Any]:
+    """So many bits that the squares of these two and of numbers beside them are exact."""
+    smallest = min((abs(value) for value in (x, y) if value), default=1.0)
+    return flint.ctx.workprec(BITS if smallest > 2.0**-100 else MOST_BITS)
+
+
 def least(x: float, y: float, R: float, side: int) -> tuple[str, Any]:
     """The exact optimum onto the circle of a side, +1 clockwise: its word (as if clockwise) and its time."""
-    return min(exact_times(arb(x), arb(side * y), arb(R)), key=lambda found: found[1])
+    with exactly(x, y):
+        return min(exact_times(arb(x), arb(side * y), arb(R)), key=lambda found: found[1])
 
 
 def end_of(x: float, y: float, answer: Answer) -> tuple[Any, Any]:
@@ -164,9 +172,13 @@ def unit(x: float, y: float, R: float) -> float:
 
 def errors_of(case: Case, answer: Answer) -> Errors:
     """The errors of an answer, in units."""
+    with exactly(case.x, case.y):
+        return errors_in_bits(case, answer)
+
+
+def errors_in_bits(case: Case, answer: Answer) -> Errors:
+    """The same in the bits that are set."""
     x, y, R = case.x, case.y, case.R
-    smallest = min((abs(value) for value in (x, y) if value), default=1.0)
-    flint.ctx.prec = BITS if smallest > 2.0**-100 else MOST_BITS
     ax, ay = end_of(x, y, answer)
     miss = (ax * ax + (ay - answer.side * arb(R)) ** 2).mid().sqrt()
     side = case.turn if case.turn else (-1 if y < 0.0 else 1)
