@@ -96,10 +96,10 @@ site: .venv/dev.stamp .venv/node.stamp
 	@echo "open build/site/index.html"
 
 firefox: .venv/node.stamp
-	cd tests && PYTHONPATH=..:. ../$(BIN)/python -m web.firefox
+	$(BIN)/python -m web.firefox
 
 notebooks: .venv/dev.stamp
-	cd tests && ../$(BIN)/python -m documents.notebooks
+	$(BIN)/python -m documents.notebooks
 
 generate: .venv/dev.stamp
 	$(BIN)/python -m codegen

@@ -1,6 +1,6 @@
 """The answer in doubles beside the exact problem, at adversarial doubles: docs/bridging.md.
 
-`PYTHONPATH=src:tests python -m evidence.bridging --states 1000000` draws doubles next to every circle, axis, centre and
+`python -m evidence.bridging --states 1000000` draws doubles next to every circle, axis, centre and
 corner where the answer changes, with radii next to those where words begin to exist or end, and climbs from the worst
 of them. For each state it flies the answer's pieces, as the doubles that they are, in 512 bits or more, and compares
 its time with the least time of all words, by formulas that share nothing with the kernel. Errors are in units of

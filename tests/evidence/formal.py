@@ -1,6 +1,6 @@
 """Reads, evaluates, builds and breaks the Coq development in formal/.
 
-`python -m evidence.formal`, in tests, changes one formula or one condition at a time and shows that the proof of each
+`python -m evidence.formal` changes one formula or one condition at a time and shows that the proof of each
 false statement fails.
 """
 

@@ -1,6 +1,6 @@
 """Mutation search for `loiter prove`: every small change to the kernel's still-air part must not be called certain.
 
-`PYTHONPATH=src:tests python -m evidence.proof_mutants` changes operators, constants, comparisons, branches and names
+`python -m evidence.proof_mutants` changes operators, constants, comparisons, branches and names
 of the functions in `SCOPE`, one at a time, and checks the lemmas of docs/proof.md on each changed kernel. It prints how
 many of which kind were refused, and by which lemma, and lists those called certain: each of these must be equivalent.
 

@@ -1,6 +1,6 @@
 """Measured rounding errors of T beside the bounds of theorem 4.
 
-`PYTHONPATH=src:tests python -m evidence.rounding_errors` takes, for each word, random states of its region in doubles,
+`python -m evidence.rounding_errors` takes, for each word, random states of its region in doubles,
 and T by the kernel's doubles and in 50 digits. Errors are in units of 2^-52 (1 + |x| + |y| + R).
 """
 

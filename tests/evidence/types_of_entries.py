@@ -1,6 +1,6 @@
 """How often each type of Dubins path is the fastest entry, among random states, for section 12 of docs/proof.md.
 
-`PYTHONPATH=src:tests python -m evidence.types_of_entries --states 1000000` computes the times of all six words of three
+`python -m evidence.types_of_entries --states 1000000` computes the times of all six words of three
 pieces onto the clockwise circle, RLR and the other roots of LRL included, by plain formulas that share nothing with
 the kernel. It compares the least with `loiter.min_time`. States are uniform in a disc of R + 6 turn radii.
 """

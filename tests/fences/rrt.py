@@ -1,4 +1,4 @@
-"""Clear entries beside OMPL's RRT*: `python -m fences.rrt --scenes 8`, in tests, prints a row for each scene.
+"""Clear entries beside OMPL's RRT*: `python -m fences.rrt --scenes 8` prints a row for each scene.
 
 RRT* samples poses in the Dubins space; its goals are poses all round the circle, and a pose is valid if it is not
 closer to a zone than the margin. Its paths are checked each 0.5 m.

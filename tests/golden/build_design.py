@@ -1,6 +1,6 @@
 """The map of the folders in docs/design.md, from the docstrings of the modules.
 
-`PYTHONPATH=src:tests python tests/golden/build_design.py` writes it anew; a test holds the document against it.
+`python tests/golden/build_design.py` writes it anew; a test holds the document against it.
 """
 
 import ast

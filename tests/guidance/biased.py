@@ -1,6 +1,6 @@
 """A campaign with aircraft drawn at random whose headings and banks are measured with constant biases.
 
-`PYTHONPATH=src:tests:. python -m guidance.biased 500 101` flies 500 aircraft of seed 101 with the law, and prints a
+`python -m guidance.biased 500 101` flies 500 aircraft of seed 101 with the law, and prints a
 line for all and one for each of the 25 latest. `vector-field` as a third argument flies that law, `known-roll` the law
 that knows the roll of each aircraft from the start. The law was tuned with the seeds 3, 5, 7 and 9.
 """

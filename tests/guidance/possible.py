@@ -1,6 +1,6 @@
 """The law beside what an aircraft with the same roll can reach: the same starts, the same band.
 
-`python -m guidance.possible 100 11 0.05`, run in the folder `tests` with the library on the path, flies 100 starts of
+`python -m guidance.possible 100 11 0.05` flies 100 starts of
 seed 11 in gusts of 5 % of the airspeed, as `loiter fly` does, and bounds the settling time of each from above by a
 nonlinear program in still air (`evidence/checks/rolling.py`). It takes some ten seconds a start.
 """

@@ -1,8 +1,8 @@
 """Recorded flights, to compare two versions of the law: the same measurements must give the same commands.
 
-`python -m guidance.recorded record FOLDER 1000`, run in the folder `tests` with a version of the library on the path,
-flies a thousand flights and writes measurements and commands; flights that are there are kept.
-`python -m guidance.recorded replay FOLDER`, with another version, gives the measurements to the law again, and prints
+`python -m guidance.recorded record FOLDER 1000`, with a version of the library, flies a thousand flights and writes
+measurements and commands; flights that are there are kept. `python -m guidance.recorded replay FOLDER`, with another
+version (its `src` in PYTHONPATH), gives the measurements to the law again, and prints
 the largest differences and the time of a step.
 `replay FOLDER 0 50` takes the first fifty flights: two versions are timed by replaying such parts alternately.
 """

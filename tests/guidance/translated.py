@@ -1,6 +1,6 @@
 """The law in C and in JavaScript beside the law in Python, over recorded flights: the same commands up to rounding.
 
-`python -m guidance.translated FOLDER`, run in the folder `tests` with the library on the path, gives the measurements
+`python -m guidance.translated FOLDER` gives the measurements
 of the flights that `guidance.recorded` wrote to all three, and prints the largest differences. `FOLDER 50` takes fifty.
 """
 

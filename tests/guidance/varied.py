@@ -1,6 +1,6 @@
 """A campaign with aircraft drawn at random, of which the law knows airspeed and bank limit alone.
 
-`PYTHONPATH=src:tests:. python -m guidance.varied 500 17` flies 500 aircraft of seed 17, each in gusts of 5 % and again
+`python -m guidance.varied 500 17` flies 500 aircraft of seed 17, each in gusts of 5 % and again
 in calm air, and prints a table and the ten latest. The laws were tuned with the seeds 3, 7, 11 and 13.
 """
 

@@ -2,7 +2,7 @@
 
 A step is safe if, anywhere within it, the second derivative of h (docs/slots.md, section 3) lies between the bounds
 that the kernel takes at its beginning, and V is no larger than its own.
-`python -m kernel.slot_bounds 20`, run in the folder `tests`, searches for the scene, the place and the step at which
+`python -m kernel.slot_bounds 20` searches for the scene, the place and the step at which
 central differences come closest to a bound, from so many beginnings by Nelder and Mead's method; `wind` does so in wind
 of up to 0.95 of the airspeed. A share above 1 would let a step jump over an arrival. A last number is the seed.
 """

@@ -4,7 +4,7 @@ At a fold of LRL or RLR two arrivals meet in a double root: h = h' = 0 of docs/s
 their circles touch: the length equals the time and |d| = 2. Both are two equations for the phase of the slot and the
 angle held until it is met. On one side of the fold the kernel has to arrive there, on the other it may not until later;
 the slot's distance from the reachable set, which shares no code with it, is zero there and not before.
-`python -m kernel.slot_folds 20`, run in the folder `tests`, finds 20 folds of each kind; `wind` does so in wind. A last
+`python -m kernel.slot_folds 20` finds 20 folds of each kind; `wind` does so in wind. A last
 number is the seed.
 """
 

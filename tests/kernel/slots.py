@@ -1,7 +1,7 @@
 """First arrivals in slots beside Buzikov's step (arXiv 2210.03439), which shares no code with the kernel.
 
 The distances are those of `loiter.verify.slot_check`; here each scene makes a step at a time, and many scenes do so at
-once. `python -m kernel.slots 10000`, run in the folder `tests`, compares random slots in still air; `wind`
+once. `python -m kernel.slots 10000` compares random slots in still air; `wind`
 takes slots in wind, `folds` slots next to a jump of the time, where two branches of a word meet or a word vanishes. A
 last number is the seed.
 """

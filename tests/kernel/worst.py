@@ -1,4 +1,4 @@
-"""Search for the worst answers by optimisation, where faults are likely: `PYTHONPATH=src:tests python -m kernel.worst`.
+"""Search for the worst answers by optimisation, where faults are likely: `python -m kernel.worst`.
 
 A scene is a point, a radius and a side. Points lie next to the circles and corners where words meet, at distances from
 1e-17 to 1; radii next to 1, 2, 3, 4 or anywhere up to 1e6. Each generation keeps the worst scenes and varies them.

@@ -1,6 +1,6 @@
 """Uploads over a line that loses one packet of five each way, with the time-outs of real vehicles.
 
-`python -m mavlink.losing 50` (in the folder tests, with the library on the path): to vehicles of ours, eight at a time;
+`python -m mavlink.losing 50`: to vehicles of ours, eight at a time;
 `python -m mavlink.losing 50 mavsdk`: to that of mavsdk, one after the other.
 """
 

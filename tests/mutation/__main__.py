@@ -1,6 +1,6 @@
 """Mutation search: which small changes to the code no test notices.
 
-PYTHONPATH=src:tests python -m mutation --seed 1 --mutants 50 --results FILE [--files kernel/ io/missions/signs.py ...]
+python -m mutation --seed 1 --mutants 50 --results FILE [--files kernel/ io/missions/signs.py ...]
 
 The seed decides which mutants, for the sources as they are. What has been tried is kept in the results file, a line of
 JSON each: a later run goes on from there and tries what survived again. Mutants in equivalents.toml are not tried.

@@ -1,4 +1,4 @@
-"""The applet for ArduPilot in Lua 5.3 over a simulated plane: `python -m native.applet 100`, in the folder `tests`.
+"""The applet for ArduPilot in Lua 5.3 over a simulated plane: `python -m native.applet 100`.
 
 Half of the starts have wind. Prints how many flights have settled, how much later than the least time, and the
 instructions of a callback.

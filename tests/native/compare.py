@@ -1,6 +1,6 @@
 """The generated C beside the Python it comes from, on as many states and scenes as one likes: the same bits.
 
-`PYTHONPATH=src:tests python -m native.compare --states 1000000 --scenes 20000`; the tests try some thousands.
+`python -m native.compare --states 1000000 --scenes 20000`; the tests try some thousands.
 """
 
 import argparse

@@ -1,4 +1,4 @@
-"""The C for autopilots with libFuzzer and sanitizers: `python -m native.fuzz entry 3600`, in the folder `tests`.
+"""The C for autopilots with libFuzzer and sanitizers: `python -m native.fuzz entry 3600`.
 
 What is called is `entry`, `search` or `law`; the number is that of seconds. `--float` is single precision, and
 `--corpus FOLDER` keeps the inputs that reach new code, and begins with those. Needs clang. An input that makes a

@@ -1,4 +1,4 @@
-"""The kernel in JavaScript beside the same C: `PYTHONPATH=src:tests:. python -m native.javascript_table`.
+"""The kernel in JavaScript beside the same C: `python -m native.javascript_table`.
 
 Compares 1,000,000 states in still air and 20,000 scenes in wind (or as many as are given) with the C that is generated
 from the same Python with the same sine, cosine and arctangent, bit for bit; and writes as a table how much they differ

@@ -1,4 +1,4 @@
-"""What Lua with numbers of 32 bits costs: `python -m native.lua_precision LUA kernel`, in the folder `tests`.
+"""What Lua with numbers of 32 bits costs: `python -m native.lua_precision LUA kernel`.
 
 LUA is an interpreter of Lua 5.3 that was compiled with -DLUA_32BITS, as ArduPilot's is. `kernel` compares times and
 words with those of Lua in double precision, for the states of `native.single_precision`. `law FOLDER` gives the

@@ -4,7 +4,7 @@
 of the states from the circles where the word changes, and next to R = 1. `wind` does so for the search in wind. `law`
 gives the measurements of flights that `guidance.recorded` has recorded to the law in single and in double precision.
 `flown` flies both from the same starts, with varied aircraft in gusts of 5 %. `spread` flies the law in single
-precision in a wind of a third of the airspeed, with searches that are spread over steps. In the folder `tests`.
+precision in a wind of a third of the airspeed, with searches that are spread over steps.
 """
 
 import pickle

@@ -1,6 +1,6 @@
 """The watchdog of the applet for ArduPilot: what the vehicle does, in six degrees of freedom, when the applet dies.
 
-`python -m native.test_watchdog`, in the folder `tests`, prints it.
+`python -m native.test_watchdog` prints it.
 """
 
 from math import hypot, inf

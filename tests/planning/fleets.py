@@ -1,4 +1,4 @@
-"""Fleets beside every assignment at many common phases: `python -m planning.fleets 20`, run in the folder `tests`."""
+"""Fleets beside every assignment at many common phases: `python -m planning.fleets 20`."""
 
 import sys
 from itertools import permutations

@@ -1,6 +1,6 @@
 """Landings enumerated independently: places and sides of the circle, points of joining and turns, by OMPL's distances.
 
-`python -m planning.landings 2000`, run in the folder `tests` with the library on the path, compares random landings in
+`python -m planning.landings 2000` compares random landings in
 still air with the plan, and prints by how much the enumeration was sooner at most; `wind` as a second argument takes
 the scan of `planning.legs` instead. The circles and altitudes are those of complex numbers here.
 """

@@ -1,6 +1,6 @@
 """Legs beside a collocation in three dimensions: any path onto the circle, the hold, and the climb at a bounded rate.
 
-`python -m planning.leg_collocation 50`, run in the folder `tests` with the library on the path, collocates random legs
+`python -m planning.leg_collocation 50` collocates random legs
 in still air, prints each that is sooner than its plan, and by how much the others are later. Like the plans of legs the
 program may take a path onto the circle that is longer than need be, to be at an altitude just in time.
 """

@@ -1,6 +1,6 @@
 """Legs enumerated independently: points of joining, directions and turns, with OMPL's distances or a scan in wind.
 
-`python -m planning.legs 5000`, run in the folder `tests` with the library on the path, compares random legs in still
+`python -m planning.legs 5000` compares random legs in still
 air with the plan, and prints by how much the enumeration was sooner at most and later in the median; `wind` as a second
 argument takes legs in wind.
 """

@@ -1,6 +1,6 @@
 """Prescribed times of arrival, in and out of the gap, beside a method that shares no code.
 
-`python -m planning.prescribed_times 1000`, run in the folder `tests`, draws times at which the kernel finds no path
+`python -m planning.prescribed_times 1000` draws times at which the kernel finds no path
 between two poses though both a shorter and a longer one exist, in still air and in wind, and looks for one by steps of
 Gauss and Newton: 16 intervals of constant turn rate, from random beginnings, for every number of whole turns that fits.
 None may end closer than `MISSED` to the pose. To show that it would find a path, it gets times beyond either end of the

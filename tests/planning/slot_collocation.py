@@ -1,6 +1,6 @@
 """Entries into slots, and prescribed times in gaps, beside a collocation with free final time that shares no code.
 
-`python -m planning.slot_collocation 200`, run in the folder `tests` with the library on the path, collocates random
+`python -m planning.slot_collocation 200` collocates random
 entries into slots, half of them in wind: any control of 32 intervals of free length, with the slot's pose at the final
 time as the end. It prints each that is sooner than its plan, and by how much the others are later. `gaps` takes as many
 prescribed times in gaps, and looks for the path of that duration that ends nearest to the pose; a fifth of the gap

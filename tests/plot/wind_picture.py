@@ -1,6 +1,6 @@
 """Wind and the fastest entry: the picture of docs/wind.md.
 
-Run: PYTHONPATH=tests python -m plot.wind_picture docs/wind.png
+Run: python -m plot.wind_picture docs/wind.png
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Certificates by the hundred thousand: `PYTHONPATH=src:tests python -m verify.certificates`.
+"""Certificates by the hundred thousand: `python -m verify.certificates`.
 
 Plans at random and next to boundaries and ties, in still air and in wind: each must have a valid certificate. Wrong
 maneuvers, made from such plans: none may have one. `--worst` searches instead for the plan in wind whose residuals come

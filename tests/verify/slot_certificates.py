@@ -1,4 +1,4 @@
-"""Certificates of entries into slots by the hundred: `PYTHONPATH=src:tests python -m verify.slot_certificates 300`.
+"""Certificates of entries into slots by the hundred: `python -m verify.slot_certificates 300`.
 
 Plans at random, in still air and in wind, must have a valid certificate; `folds` takes slots next to jumps of the time.
 Wrong maneuvers and wrong slots, made from such plans, must have none: a later root (another word that meets the slot,

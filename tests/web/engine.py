@@ -1,6 +1,6 @@
 """The page's engine beside the library: the same scenes answered by both, and in what the answers differ.
 
-`PYTHONPATH=src:tests:. python -m web.engine 10000` compares that many scenes and counts the differences; with a second
+`python -m web.engine 10000` compares that many scenes and counts the differences; with a second
 number it begins after that many scenes.
 """
 

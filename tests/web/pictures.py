@@ -1,6 +1,6 @@
 """Pictures of the page for the documents: page.png, page-dark.png, page-fence.png and page-phone.png in docs.
 
-Run: PYTHONPATH=src:tests:. python -m web.pictures
+Run: python -m web.pictures
 """
 
 from pathlib import Path
