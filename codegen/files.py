@@ -14,10 +14,10 @@ from loiter.guidance.estimation import identification_step
 from loiter.guidance.estimation.vehicle import fly_as_declared
 from loiter.kernel import adjoint, entry, motion, rounding, words
 from loiter.kernel.still_air import extremals, switching_curves, synthesis, value_gradient
-from loiter.kernel.wind import held, hold, paths, slots, wind_search
+from loiter.kernel.wind import held, hold, paths, slots, way_out, wind_search
 from loiter.version import __version__
 from loiter.web import problems  # noqa: F401
-from loiter.web.answers import exports, fences, plans, race  # noqa: F401
+from loiter.web.answers import exports, fences, legs, plans, race  # noqa: F401
 
 FOLDER = ROOT / "src" / "loiter" / "native"
 PAGE = ROOT / "src" / "loiter" / "web" / "static" / "kernel"
@@ -86,6 +86,12 @@ PLANNING = (
     wind_search.optima,
     wind_search.ranked,
     wind_search.entry_of,
+    wind_search.scene_of,
+    way_out.exit_point,
+    way_out.least_width,
+    way_out.soonest_exit,
+    way_out.entry_before,
+    slots.less_whole_turns,
     held.time_held,
     paths.first_path_of,
     words.controls,
@@ -127,6 +133,9 @@ ABOVE_KERNEL = (
     ("loiter.web.answers.plans", "certificate"),
     ("loiter.web.answers.tracks", "lap"),
     ("loiter.web.answers.race", "race"),
+    ("loiter.web.answers.legs", "leg_plan"),
+    ("loiter.web.answers.legs", "leg_fence_check"),
+    ("loiter.web.answers.legs", "leg_file"),
     ("loiter.web.answers.fences", "fence_check"),
     ("loiter.web.answers.fences", "clear_plan"),
     ("loiter.web.answers.fences", "clear_maneuver"),
@@ -180,7 +189,7 @@ ELSEWHERE = {
     ("loiter.kernel.motion", "reduce"): "arrays.reduce_states",
     # The page has no string pulled taut, which needs shapely: its bound is the fastest entry.
     ("loiter.fences.taut", "least_length_m"): "arrays.no_length",
-    ("loiter.planning.leg", "LegPlan"): "arrays.Absent",
+    ("loiter.planning.landing", "LandingPlan"): "arrays.Absent",
     ("loiter.fences.model", "_invalidity"): "shapes.invalidity",
     ("loiter.fences.model", "_gap_m"): "shapes.gap_m",
     # The page plans without slots.
@@ -208,6 +217,9 @@ def library_module(kernel: Module) -> str:
     library = Library(ABOVE_KERNEL, kernel.name, ELSEWHERE)
     text = library.text()
     python = (PAGE / "python.js").read_text("utf-8")
+    offered = set(re.findall(r"^export (?:const|function) (\w+)", kernel.text(), re.MULTILINE))
+    if missing := set(re.findall(r"\bkernel\.(\w+)", text)) - offered:
+        raise NotTranslated(f"kernel.js has no {', '.join(sorted(missing))}")
     known = set(re.findall(r"^export (?:const|function\*?|class) (\w+)", python, re.MULTILINE)) | {"complex"}
     used = set(re.findall(r"\b\w+\b", text)) & known
     if missing := library.builtins - known:

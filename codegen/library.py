@@ -62,6 +62,9 @@ METHODS = {
 # Modules of which JavaScript has a part that functions import.
 MODULES = {"np", "shapely"}
 
+# Modules of the kernel that are translated like the code above it: they have generators and methods.
+UNTYPED = {"loiter.kernel.wind.elongation"}
+
 # What JavaScript has elsewhere: by module and name, the expression that stands for it.
 Replaced = dict[tuple[str, str], str]
 
@@ -221,7 +224,7 @@ class Library:
 
 # Methods that the page never calls, and that need what a browser has not.
 UNUSED = {
-    "Maneuver": {"to_dataframe", "to_dict", "sample", "_repr_html_", "_repr_svg_"},
+    "Maneuver": {"to_dataframe", "to_dict", "_repr_html_", "_repr_svg_"},
     "Hold": {"sample", "at"},
     "Orbit": {"fitted"},
     "LocalFrame": {"pose", "_swapped_hint", "_reaches"},
@@ -487,7 +490,7 @@ class Writer:
             return f"{module}.{title}"
         if module in ("loiter.kernel.words", "loiter.kernel.statuses") and isinstance(value, type):
             return f"kernel.{title}"
-        if module.startswith("loiter.kernel.") and isinstance(value, FunctionType):
+        if module.startswith("loiter.kernel.") and module not in UNTYPED and isinstance(value, FunctionType):
             return f"kernel.{self.library.kernel(value)}"
         if module.startswith("loiter."):
             return self.library.named(module, title)
@@ -525,7 +528,8 @@ class Writer:
                     if callable(value)
                     else self.library.named(owner.__name__, node.attr)
                 )
-            return f"{owner.__name__.rpartition('.')[2]}.{node.attr}"
+            module = "np" if owner.__name__ == "numpy" else owner.__name__.rpartition(".")[2]
+            return f"{module}.{node.attr}"
         # The value of a member of an enumeration, which is itself; other classes have fields of that name.
         if node.attr == "value" and re.search(r"\bturn\)?$", ast.unparse(node.value)):
             return self.expression(node.value)

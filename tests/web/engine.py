@@ -141,10 +141,10 @@ def fence_values(fence):
     return Fence(tuple(zones)), fence["margin_m"]
 
 
-def of_the_page(scenes, fences=None):
+def of_the_page(scenes, fences=None, formats=FORMATS):
     """The answers of the page's engine, in Node."""
     asked = json.dumps(
-        [[scene, FORMATS, fence] for scene, fence in zip(scenes, fences or [None] * len(scenes), strict=True)]
+        [[scene, formats, fence] for scene, fence in zip(scenes, fences or [None] * len(scenes), strict=True)]
     )
     done = subprocess.run([NODE, ASKED, ENGINE], input=asked, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
@@ -156,22 +156,22 @@ def of_the_library(scene, fence=None):
     options = models.ExportOptions.model_validate(scene)
     of_fence = {}
     if fence:
-        check = _answered(lambda: fences.fence_check(options.placed(), *fence_values(fence)))
+        check = answered(lambda: fences.fence_check(options.placed(), *fence_values(fence)))
         of_fence = {"check": check}
         if fence["search"] and check.get("clear") is False:
-            of_fence["clear"] = _answered(lambda: fences.clear_plan(options.placed(), *fence_values(fence)))
+            of_fence["clear"] = answered(lambda: fences.clear_plan(options.placed(), *fence_values(fence)))
     return of_fence | {
-        "plan": _answered(lambda: plans.plan(options.placed())),
-        "certificate": _answered(lambda: plans.certificate(options.placed())),
-        "lap": _answered(lambda: lap(all_fastest(options.placed().problem)[0])),
+        "plan": answered(lambda: plans.plan(options.placed())),
+        "certificate": answered(lambda: plans.certificate(options.placed())),
+        "lap": answered(lambda: lap(all_fastest(options.placed().problem)[0])),
         "files": {
-            name: _answered(lambda name=name: exports.export(exports.ExportRequest(name, options)).decode())
+            name: answered(lambda name=name: exports.export(exports.ExportRequest(name, options)).decode())
             for name in FORMATS
         },
     }
 
 
-def _answered(answer):
+def answered(answer):
     try:
         found = answer()
     except LoiterError as error:

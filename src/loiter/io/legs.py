@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 from loiter.errors import InvalidArgument, file_path, instance
 from loiter.fences.places import PlacedFence
@@ -52,7 +53,13 @@ def leg_content(
     if fence is not None:
         instance("fence", fence, PlacedFence)
     check_leg_format(path)
-    ending = path.suffix.lower()
+    return leg_text(plan, path.suffix.lower(), frame, autopilot, fence and fence_document(fence))
+
+
+def leg_text(
+    plan: LegPlan, ending: str, frame: LocalFrame, autopilot: Autopilot, fence: dict[str, Any] | None = None
+) -> bytes:
+    """The content of a file with a known ending; `fence` is the geoFence of a .plan."""
     if ending == ".kml":
         instance("frame", frame, LocalFrame)
         return leg_kml(plan, frame)
@@ -61,4 +68,4 @@ def leg_content(
     found = leg_mission(plan, frame, autopilot=autopilot)
     if ending != ".plan":
         return wpl(found)
-    return qgcplan(found, autopilot, plan.entry.aircraft.airspeed_m_s, fence and fence_document(fence))
+    return qgcplan(found, autopilot, plan.entry.aircraft.airspeed_m_s, fence)

@@ -151,18 +151,9 @@ class LegPlan:
         """The track on the circle after each share, from 0 to 1, of the angle that is held."""
         import numpy as np
 
-        orbit, aircraft, r = self.leg.orbit, self.entry.aircraft, self.entry.aircraft.turn_radius_m
-        side, R, width = sign_of(self.turn), radius_in_turns(orbit, aircraft), radians(self.held_deg)
-        wx, wy = relative_wind(orbit, aircraft, self.entry.wind)
-        last = phase_of(self.exit.east_m - orbit.east_m, self.exit.north_m - orbit.north_m, side, wx, wy)
-        rows = []
-        for share in shares:
-            phase = last - (1.0 - share) * width
-            x, y, _, _, _ = hold_pose(phase, side, R, wx, wy)
-            rows.append((time_held(phase, share * width, R, wx, wy), x, y))
-        times, east, north = np.array(rows).reshape(-1, 3).T
-        time_s = self.entry.duration_s + times * (r / aircraft.airspeed_m_s)
-        return Track(time_s, orbit.east_m + r * east, orbit.north_m + r * north, self._altitudes(time_s))
+        rows = [(at.time_s, at.east_m, at.north_m) for at in hold_states(self, shares)]
+        time_s, east_m, north_m = np.array(rows).reshape(-1, 3).T
+        return Track(time_s, east_m, north_m, self._altitudes(time_s))
 
     def _altitudes(self, time_s: NDArray[float64]) -> NDArray[float64]:
         """The altitude at times, which changes at the aircraft's rate until that of the leg is reached."""
@@ -247,6 +238,31 @@ def _planned(leg: Leg, problem: Problem, climb_s: float) -> LegPlan:
     straight_m = hypot(leg.exit_to[0] - exit_.east_m, leg.exit_to[1] - exit_.north_m)
     _, speed_m_s = hold.entry.over_ground(exit_)
     return LegPlan(leg, hold.entry, hold.time * unit_s, degrees(hold.width), exit_, straight_m / speed_m_s)
+
+
+class HoldState(NamedTuple):
+    """The state of the aircraft on the circle: seconds from the start, metres, compass heading in degrees."""
+
+    time_s: float
+    east_m: float
+    north_m: float
+    heading_deg: float
+
+
+def hold_states(plan: LegPlan, shares: Sequence[float]) -> list[HoldState]:
+    """The states on the circle after each share, from 0 to 1, of the angle that is held."""
+    orbit, aircraft, r = plan.leg.orbit, plan.entry.aircraft, plan.entry.aircraft.turn_radius_m
+    side, R, width = sign_of(plan.turn), radius_in_turns(orbit, aircraft), radians(plan.held_deg)
+    wx, wy = relative_wind(orbit, aircraft, plan.entry.wind)
+    last = phase_of(plan.exit.east_m - orbit.east_m, plan.exit.north_m - orbit.north_m, side, wx, wy)
+    states = []
+    for share in shares:
+        phase = last - (1.0 - share) * width
+        x, y, c, s, _ = hold_pose(phase, side, R, wx, wy)
+        time_s = plan.entry.duration_s + time_held(phase, share * width, R, wx, wy) * (r / aircraft.airspeed_m_s)
+        heading_deg = wrapped(degrees(atan2(c, s)))
+        states.append(HoldState(time_s, orbit.east_m + r * x, orbit.north_m + r * y, heading_deg))
+    return states
 
 
 class Hold(NamedTuple):

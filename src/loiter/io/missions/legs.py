@@ -100,8 +100,8 @@ def _loiter(plan: LegPlan, autopilot: int) -> tuple[MavCommand, Params]:
         if turns > MOST_TURNS or radius_m > LARGEST_TURNS_RADIUS_M:
             raise InvalidArgument(
                 "turns",
-                f"are stored by ArduPlane up to {MOST_TURNS}, with a radius of up to "
-                f"{LARGEST_TURNS_RADIUS_M:g} m: {turns} with {radius_m:g} m are not",
+                f"are stored by ArduPlane up to {MOST_TURNS:g}, with a radius of up to "
+                f"{LARGEST_TURNS_RADIUS_M:g} m: {turns:g} with {radius_m:g} m are not",
             )
         return MavCommand.NAV_LOITER_TURNS, (float(turns), 0.0, 0.0, FROM_EXIT)
     if leg.hold_s > 0.0:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from loiter.planning.leg import Leg, LegPlan
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CALM, TURN_LIMITS, Aircraft, Orbit, Turn
 from loiter.planning.problem import Problem
@@ -19,6 +20,13 @@ OPTIONS = {
     "wind": "--wind",
     "orbit_velocity_m_s": "--orbit-velocity",
     "tolerance_m": "--tolerance",
+    "exit_to": "--exit-to",
+    "hold_s": "--hold",
+    "turns": "--turns",
+    "start_altitude_m": "--altitude",
+    "altitude_m": "--to-altitude",
+    "climb_rate_m_s": "--climb-rate",
+    "descent_rate_m_s": "--descent-rate",
 }
 
 
@@ -55,21 +63,78 @@ def command(problem: Problem) -> str:
 
 def python(problem: Problem) -> str:
     """Python code that computes the plan as `m` and prints it."""
-    wind = f", {problem.wind!r}" if problem.wind != CALM else ""
     tolerance = f", tolerance_m={problem.tolerance_m!r}" if problem.tolerance_m else ""
-    uav, limit = problem.aircraft, _given_limit(problem.aircraft)
-    names = ", ".join(["Aircraft", "Orbit", "Pose", *(["Wind"] if wind else []), "plan_all"])
     return "\n".join(
         [
-            f"from loiter import {names}",
-            "",
-            f"pose = {problem.pose!r}",
-            f"orbit = {_orbit(problem.orbit)}",
-            f"uav = Aircraft(airspeed_m_s={uav.airspeed_m_s!r}, {limit}={getattr(uav, limit)!r})",
-            f"m, *as_fast = plan_all(pose, orbit, uav{wind}{tolerance})",
+            *_scene_lines(problem, "plan_all"),
+            f"m, *as_fast = plan_all(pose, orbit, uav{_wind(problem)}{tolerance})",
             "print(m.word, m.turn.value, m.duration_s)",
         ]
     )
+
+
+def leg_instruction(plan: LegPlan) -> str:
+    """What to do now, what next, how long to hold, when to leave and when the point is reached."""
+    hold = f"hold {plan.turn.described}"
+    decimals = 2 if plan.leg.orbit.radius_m >= 10.0 else 3
+    parts = [(segment.duration_s, ACTIONS[segment.letter]) for segment in plan.entry.segments]
+    parts += [(plan.held_s, hold)] if plan.held_s > 0.0 else []
+    (first_s, first), *later = [*parts, (plan.straight_s, "leave straight")]
+    text = f"{first.capitalize()} now"
+    if later:
+        text += f", then {later[0][1]} in {first_s:.{decimals}f} s"
+    if plan.held_s > 0.0:
+        text += (
+            f". {hold.capitalize()} from {plan.entry.duration_s:.{decimals}f} s for {plan.held_deg / 360.0:.2f} turns"
+        )
+    return f"{text}. Leave in {plan.exit_s:.{decimals}f} s, at the point in {plan.duration_s:.{decimals}f} s."
+
+
+def leg_command(problem: Problem, leg: Leg) -> str:
+    """The command line that plans a leg, in local metres."""
+    words = [f"loiter leg{command(problem).removeprefix('loiter plan')}", _option("exit_to", *leg.exit_to)]
+    numbers = {
+        "hold_s": leg.hold_s or None,
+        "turns": leg.turns or None,
+        "start_altitude_m": leg.pose.altitude_m,
+        "altitude_m": leg.altitude_m,
+        "climb_rate_m_s": problem.aircraft.climb_rate_m_s,
+        "descent_rate_m_s": problem.aircraft.descent_rate_m_s,
+    }
+    words += [_option(name, number) for name, number in numbers.items() if number is not None]
+    return " ".join(words)
+
+
+def leg_python(problem: Problem, leg: Leg) -> str:
+    """Python code that computes the plan of a leg as `p` and prints it."""
+    east_m, north_m = leg.exit_to
+    needs = [f"hold_s={leg.hold_s!r}"] if leg.hold_s else []
+    needs += [f"turns={leg.turns!r}"] if leg.turns else []
+    needs += [f"altitude_m={leg.altitude_m!r}"] if leg.altitude_m is not None else []
+    asked = ", ".join(["pose", "orbit", f"exit_to=({east_m!r}, {north_m!r})", *needs])
+    lines = [*_scene_lines(problem, "Leg, plan_leg"), f"p = plan_leg(Leg({asked}), uav{_wind(problem)})", "print(p)"]
+    return "\n".join(lines)
+
+
+def _scene_lines(problem: Problem, names: str) -> list[str]:
+    """Python code that imports names, and makes the pose, the orbit and the aircraft of a problem."""
+    uav = problem.aircraft
+    limit = _given_limit(uav)
+    given = [name for name in (limit, "climb_rate_m_s", "descent_rate_m_s") if getattr(uav, name) is not None]
+    values = ", ".join(f"{name}={getattr(uav, name)!r}" for name in ("airspeed_m_s", *given))
+    imported = ", ".join(["Aircraft", "Orbit", "Pose", *(["Wind"] if _wind(problem) else []), names])
+    return [
+        f"from loiter import {imported}",
+        "",
+        f"pose = {problem.pose!r}",
+        f"orbit = {_orbit(problem.orbit)}",
+        f"uav = Aircraft({values})",
+    ]
+
+
+def _wind(problem: Problem) -> str:
+    """The wind as one more argument, or nothing in still air."""
+    return f", {problem.wind!r}" if problem.wind != CALM else ""
 
 
 def _orbit(orbit: Orbit) -> str:

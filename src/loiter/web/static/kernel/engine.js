@@ -33,13 +33,17 @@ export const race = (scene) => plain(library.race(placed(scene).problem));
 /** Every extremal. @param {Scene} scene */
 export const candidates = (scene) => plain(library.all_candidates(placed(scene)));
 
+/** The way in, round and out of a scene with a leg. @param {Scene} scene @returns {import("../shared/types.js").LegPlan} */
+export const legPlan = (scene) => plain(library.leg_plan(placed(scene), scene.leg));
+
 /**
- * Whether the plan of a scene with a fence stays clear of it.
+ * Whether the plan of a scene with a fence, or its leg, stays clear of it.
  *
  * @param {Scene} scene
  * @returns {import("../shared/types.js").FenceCheck}
  */
-export const fenceCheck = (scene) => plain(library.fence_check(placed(scene), ...fenced(scene)));
+export const fenceCheck = (scene) =>
+  plain(scene.leg ? library.leg_fence_check(placed(scene), scene.leg, ...fenced(scene)) : library.fence_check(placed(scene), ...fenced(scene)));
 
 /** The fastest clear entry that is found. @param {Scene} scene @returns {import("../shared/types.js").ClearEntry} */
 export const clearEntry = (scene) => plain(library.clear_plan(placed(scene), ...fenced(scene)));
@@ -47,13 +51,14 @@ export const clearEntry = (scene) => plain(library.clear_plan(placed(scene), ...
 const CHORD_ERROR_M = 1; // as in `loiter plan --save`
 
 /**
- * The plan as a file: that of the fastest clear entry, where the plan is not clear of the scene's fence.
+ * The plan as a file: that of the leg or, where the plan is not clear of the scene's fence, of the fastest clear entry.
  *
  * @param {string} format  "geojson"
  * @param {SceneWithAltitude} options
  * @returns {{content: string, type: string}}
  */
 export function file(format, { altitude_m = undefined, altitude_reference = "msl", home_altitude_m, ...scene }) {
+  if (scene.leg) return { content: library.leg_file(placed(scene), scene.leg, `.${format}`), type: "application/octet-stream" };
   const { problem, frame } = placed(scene);
   const [first] = library.all_fastest(problem);
   const isClear = !scene.fence || fenceCheck(scene).clear;

@@ -4,7 +4,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 8082bc6963694dcf9b02232d8021d484274440775080056e8573f7f9fc813c6e
+ * SHA-256 of the source: 39d341ac31f839b08554171046f741b8b94ca407bc28267c11f056b1e8244a09
  */
 
 // What Python has and JavaScript has not: the first of two that tie, and quotients rounded down. Integers are doubles
@@ -255,6 +255,20 @@ export const Word = { EMPTY: 0, R: 1, L: 3, SR: 6, SL: 14, RL: 13, LR: 7, RSR: 2
  *         Centres
  */
 
+/**
+ * Where and when to leave: the side of the hold, the phase of the exit, and what must have passed by then.
+ *
+ * `hold` is the least time on the circle, `width` the least angle of it, `time` the least time since the start.
+ *
+ * @typedef {{side: number, phase: number, hold: number, width: number, time: number}} WayOut
+ */
+
+/**
+ * The path onto the circle, the angle of the circle that is held after it, and the time at the exit.
+ *
+ * @typedef {{path: Path, width: number, time: number}} Exit
+ */
+
 
 /* pi/2 in three pieces, the first two of 33 digits, so that multiples below 2^20 are exact (Cody and Waite 1980). */
 export const HALF_PI_1 = 1.5707963267341256;
@@ -430,6 +444,9 @@ export const SWING = 1.5707963267948966; /* 0.5 * pi */
 
 /* Points of joining around the circle between which `ranked` looks for local minima. */
 export const SAMPLES = 128;
+
+/* Halvings after which an interval of phases is as short as rounding. */
+export const HALVINGS = 60;
 
 /* Each step squares the difference of the two means: seven reach rounding from any wind that a double can tell from
  * 1.
@@ -4115,6 +4132,17 @@ export function wind_search_optima(problem) {
 }
 
 /**
+ * The unit vector to the point at which the tangent towards (x, y), outside the circle, leaves it.
+ *
+ * @type {(x: number, y: number, side: number, R: number) => [number, number]}
+ */
+export function exit_point(x, y, side, R) {
+    const square = x * x + y * y;
+    const along = Math.sqrt(max_real(square - R * R, 0.0));
+    return [(R * x - side * along * y) / square, (R * y + side * along * x) / square];
+}
+
+/**
  * Tangent for |a| up to 2^19.
  *
  * @type {(a: number) => number}
@@ -4171,4 +4199,119 @@ export function time_held(phase, width, R, wx, wy) {
     }
     const along = 2.0 * wind * cos(0.5 * (phase + before)) * sin(0.5 * width);
     return R * (elliptic(phase, wind) - elliptic(before, wind) + along) / ((1.0 - wind) * (1.0 + wind));
+}
+
+/**
+ * The angle of the circle that is held for a time before `phase`: `time_held` of it is at least that time.
+ *
+ * @type {(phase: number, time: number, R: number, wx: number, wy: number) => number}
+ */
+export function width_held(phase, time, R, wx, wy) {
+    const wind = length(wx, wy);
+    // The ground speed lies between 1 - w and 1 + w.
+    let least = (1.0 - wind) * time / R, most = (1.0 + wind) * time / R;
+    for (let pass_1 = 0; pass_1 < HALVINGS; pass_1++) {
+        const middle = 0.5 * (least + most);
+        if (time_held(phase, middle, R, wx, wy) < time) {
+            least = middle;
+        } else {
+            most = middle;
+        }
+    }
+    return most;
+}
+
+/**
+ * The least angle of the circle that is held.
+ *
+ * @type {(out: WayOut, scene: WindScene) => number}
+ */
+export function least_width(out, scene) {
+    return max_real(out.width, width_held(out.phase, out.hold, scene.R, scene.wx, scene.wy));
+}
+
+/**
+ * The exit after an angle of the circle, with the first path to the point where the hold begins.
+ *
+ * @type {(width: number, out: WayOut, scene: WindScene) => Exit}
+ */
+export function exit_after(width, out, scene) {
+    const path = first_path(out.phase - width, out.side, scene, Infinity);
+    return { path, width, time: path.time + time_held(out.phase, width, scene.R, scene.wx, scene.wy) };
+}
+
+/**
+ * The soonest exit that is no sooner than `out.time`, by halving the angle that is held, from `least` on.
+ *
+ * @type {(least: number, out: WayOut, scene: WindScene) => Exit}
+ */
+export function exit_at_time(least, out, scene) {
+    let most = max_real(least, width_held(out.phase, out.time, scene.R, scene.wx, scene.wy));
+    let best = exit_after(most, out, scene);
+    for (let pass_1 = 0; pass_1 < HALVINGS; pass_1++) {
+        const middle = exit_after(0.5 * (least + most), out, scene);
+        if (middle.time < out.time) {
+            least = middle.width;
+        } else {
+            most = middle.width;
+            best = middle;
+        }
+    }
+    return best;
+}
+
+/**
+ * The exit of an aircraft that holds the circle from the start on, at its first passage that is late enough.
+ *
+ * @type {(least: number, out: WayOut, scene: WindScene) => Exit}
+ */
+export function exit_of_hold(least, out, scene) {
+    const start = start_on_circle(out.side, scene);
+    // A passage that is too early by rounding only counts.
+    let width = real_modulo(out.phase - start.phase, TWO_PI);
+    const enough = max_real(least, width_held(out.phase, out.time, scene.R, scene.wx, scene.wy)) * (1.0 - ROUNDING)
+            - ROUNDING;
+    width += TWO_PI * max_integer(integer_of(Math.ceil((enough - width) / TWO_PI)), 0);
+    return { path: start.path, width, time: time_held(out.phase, width, scene.R, scene.wx, scene.wy) };
+}
+
+/**
+ * The exit with the least time at it, among those that join by a first path (docs/legs.md, section 3).
+ *
+ * @type {(out: WayOut, scene: WindScene) => Exit}
+ */
+export function soonest_exit(out, scene) {
+    const least = least_width(out, scene);
+    let best = exit_after(least, out, scene);
+    if (best.time < out.time) {
+        best = exit_at_time(least, out, scene);
+    }
+    if (is_on_circle(out.side, scene)) {
+        const held = exit_of_hold(least, out, scene);
+        best = held.time < best.time ? held : best;
+    }
+    return best;
+}
+
+/**
+ * The path of an exit as the maneuver flown, and its miss: how far from the circle it ends when flown exactly.
+ *
+ * @type {(found: Exit, out: WayOut, scene: WindScene) => [Entry, number]}
+ */
+export function entry_before(found, out, scene) {
+    const drop_short_pieces_1 = drop_short_pieces(found.path.word, found.path.t1, found.path.t2, found.path.t3,
+            rounding(scene.x, scene.y, scene.R), ROUNDING);
+    const word = drop_short_pieces_1[0], t1 = drop_short_pieces_1[1], t2 = drop_short_pieces_1[2], t3 =
+            drop_short_pieces_1[3];
+    const entry = { side: out.side, word, t1, t2, t3 };
+    return [entry, end_miss(entry, out.phase - found.width, scene)];
+}
+
+/**
+ * An angle less whole turns, in [-pi, pi].
+ *
+ * @type {(excess: number) => number}
+ */
+export function less_whole_turns(excess) {
+    return excess - TWO_PI * Math.floor(excess / TWO_PI + 0.5);
 }

@@ -7,7 +7,7 @@ import * as kernel from "./kernel.js";
 import * as arrays from "./arrays.js";
 import * as shapes from "./shapes.js";
 import { np } from "./numpy.js";
-import { Complex, ElementTree, Tuple, Values, abs, accumulate, add, all, and, any, any_, append_, asdict, bit_and, bit_or, bool, cached, capitalize_, cmath, complex, conjugate_, copy_, csv, dict, div, encode_, enumerate, enumeration, eq, escape, float, floordiv, format, ge, get_, gt, has, heappop, heappush, index_, int, invert, io, isinstance, item, items_, iter, iter_items, join_, json, le, len, letters, list, lower_, lt, map, math, max, min, mod, mul, name_of, ne, neg, next, or, pairwise, partial, plain, pop_, pow, range, removesuffix_, replace, replace_, repr, reversed, round, round_, rows, set, set_item, set_of, slice, sliced, sorted, str, struct, sub, sum, tolist_, truth, tuple, values_, with_middle, zip } from "./python.js";
+import { Complex, ElementTree, Tuple, Values, abs, accumulate, add, all, and, any, any_, append_, asdict, bit_and, bit_or, bool, cached, capitalize_, cmath, complex, conjugate_, copy_, csv, dict, div, encode_, enumerate, enumeration, eq, escape, float, floordiv, format, ge, get_, gt, has, heappop, heappush, index_, int, invert, io, isinstance, item, items_, iter, iter_items, join_, json, le, len, letters, list, lower_, lt, map, math, max, min, mod, mul, name_of, ne, neg, next, or, pairwise, partial, plain, pop_, pow, range, removeprefix_, removesuffix_, replace, replace_, repr, reversed, round, round_, rows, set, set_item, set_of, slice, sliced, sorted, str, struct, sub, sum, tolist_, truth, tuple, values_, with_middle, zip } from "./python.js";
 import { shapely } from "./shapes.js";
 
 function plan(placed) {
@@ -73,6 +73,26 @@ one.advance(dt);
 }
 }
 return list(iter(flown)).map((one) => one.result());
+}
+
+function leg_plan(placed, asked) {
+let leg, plan, problem;
+plan = _planned(placed, asked);
+[leg, problem] = iter([plan.leg, _problem(placed, asked)]);
+return bit_or(plan.to_dict(), new Map([["sentence", str(plan)], ["instruction", leg_instruction(plan)], ["command", leg_command(problem, leg)], ["python", leg_python(problem, leg)], ["is_least", _is_least(plan)], ["altitudes", _altitudes(plan)], ["maneuver", _whole(plan, placed)]]));
+}
+
+function leg_fence_check(placed, asked, fence, margin_m) {
+let found;
+found = check(fence, _planned(placed, asked), margin_m);
+return bit_or(found.to_dict(), new Map([["sentence", found.sentence()]]));
+}
+
+function leg_file(placed, asked, ending) {
+if ((placed.frame == null)) {
+throw errors.InvalidArgument("frame", `is missing: a ${str(ending)} file needs places on Earth`);
+}
+return leg_text(_planned(placed, asked), ending, placed.frame, Autopilot.ARDUPILOT);
 }
 
 function fence_check(placed, fence, margin_m) {
@@ -1045,6 +1065,14 @@ const self = this;
 arrays.unchecked("pose", pose, Pose);
 return over_ground(pose.heading_deg, self.aircraft, self.wind);
 }
+sample(step_s) {
+const self = this;
+step_s = positive("step_s", step_s, "seconds");
+if (gt(div(self.duration_s, step_s), MAX_SAMPLES)) {
+throw errors.InvalidArgument("step_s", `is ${str(step_s)}: it would take more than ${MAX_SAMPLES} samples`);
+}
+return samples(self.start, self.segments, self.aircraft, self.wind, step_s);
+}
 setpoints(step_s) {
 const self = this;
 return setpoints(self.sample(step_s));
@@ -1376,6 +1404,17 @@ return [wrapped(heading_deg), aircraft.airspeed_m_s];
 }
 [east, north] = iter(_velocity(...iter(heading_vector(heading_deg)), aircraft, wind));
 return [wrapped(math.degrees(math.atan2(east, north))), math.hypot(east, north)];
+}
+
+function samples(start, segments, aircraft, wind, step_s) {
+let ends_s, times;
+
+if (!truth(segments)) {
+return samples_at(np.zeros(1), start, segments, aircraft, wind);
+}
+ends_s = add(item(segments, -1).start_s, item(segments, -1).duration_s);
+times = np.append(np.arange(0.0, mul(ends_s, sub(1.0, ROUNDING)), step_s), ends_s);
+return samples_at(times, start, segments, aircraft, wind);
 }
 
 function setpoints(track) {
@@ -1921,12 +1960,9 @@ return join_(" ", words);
 }
 
 function python(problem) {
-let limit, names, tolerance, uav, wind;
-wind = (ne(problem.wind, CALM) ? `, ${repr(problem.wind)}` : "");
+let tolerance;
 tolerance = (truth(problem.tolerance_m) ? `, tolerance_m=${repr(problem.tolerance_m)}` : "");
-[uav, limit] = iter([problem.aircraft, _given_limit(problem.aircraft)]);
-names = join_(", ", ["Aircraft", "Orbit", "Pose", ...iter((truth(wind) ? ["Wind"] : [])), "plan_all"]);
-return join_("\n", [`from loiter import ${str(names)}`, "", `pose = ${repr(problem.pose)}`, `orbit = ${str(_orbit(problem.orbit))}`, `uav = Aircraft(airspeed_m_s=${repr(uav.airspeed_m_s)}, ${str(limit)}=${repr(uav[limit])})`, `m, *as_fast = plan_all(pose, orbit, uav${str(wind)}${str(tolerance)})`, "print(m.word, m.turn.value, m.duration_s)"]);
+return join_("\n", [...iter(_scene_lines(problem, "plan_all")), `m, *as_fast = plan_all(pose, orbit, uav${str(_wind(problem))}${str(tolerance)})`, "print(m.word, m.turn.value, m.duration_s)"]);
 }
 
 function extremals(problem) {
@@ -1999,9 +2035,110 @@ return new Map([["law", self.name], ["joined_s", (truth(self.monitor.settled) ? 
 }
 }, []);
 
+function _planned(placed, asked) {
+let leg, problem;
+if (((asked.altitude_m != null) && (asked.start_altitude_m == null))) {
+throw errors.InvalidArgument("start_altitude_m", "is missing: the climb or descent to the exit begins there");
+}
+problem = _problem(placed, asked);
+leg = Leg(problem.pose, problem.orbit, asked.exit_to, asked.hold_s, asked.turns, asked.altitude_m);
+return plan_leg(leg, problem.aircraft, problem.wind);
+}
+
+function _problem(placed, asked) {
+let pose, problem, rates, uav;
+problem = placed.problem;
+pose = replace(problem.pose, { altitude_m: asked.start_altitude_m });
+rates = [asked.climb_rate_m_s, asked.descent_rate_m_s];
+uav = replace(problem.aircraft, { climb_rate_m_s: item(rates, 0), descent_rate_m_s: item(rates, 1) });
+return replace(problem, { pose: pose, aircraft: uav, tolerance_m: 0.0 });
+}
+
+function leg_instruction(plan) {
+let decimals, first, first_s, hold, later, parts, text;
+hold = `hold ${str(Turn_described(plan.turn))}`;
+decimals = (ge(plan.leg.orbit.radius_m, 10.0) ? 2 : 3);
+parts = list(iter(plan.entry.segments)).map((segment) => [segment.duration_s, item(ACTIONS, segment.letter)]);
+parts = add(parts, (gt(plan.held_s, 0.0) ? [[plan.held_s, hold]] : []));
+[[first_s, first], ...later] = iter([...iter(parts), [plan.straight_s, "leave straight"]]);
+text = `${str(capitalize_(first))} now`;
+if (truth(later)) {
+text = add(text, `, then ${str(item(item(later, 0), 1))} in ${format(first_s, `.${String(decimals)}f`)} s`);
+}
+if (gt(plan.held_s, 0.0)) {
+text = add(text, `. ${str(capitalize_(hold))} from ${format(plan.entry.duration_s, `.${String(decimals)}f`)} s for ${format(div(plan.held_deg, 360.0), `.2f`)} turns`);
+}
+return `${str(text)}. Leave in ${format(plan.exit_s, `.${String(decimals)}f`)} s, at the point in ${format(plan.duration_s, `.${String(decimals)}f`)} s.`;
+}
+
+function leg_command(problem, leg) {
+let numbers, words;
+words = [`loiter leg${str(removeprefix_(command(problem), "loiter plan"))}`, _option("exit_to", ...iter(leg.exit_to))];
+numbers = new Map([["hold_s", or(leg.hold_s, () => null)], ["turns", or(leg.turns, () => null)], ["start_altitude_m", leg.pose.altitude_m], ["altitude_m", leg.altitude_m], ["climb_rate_m_s", problem.aircraft.climb_rate_m_s], ["descent_rate_m_s", problem.aircraft.descent_rate_m_s]]);
+words = add(words, list(iter(items_(numbers))).map((one) => iter(one)).filter(([name, number]) => (number != null)).map(([name, number]) => _option(name, number)));
+return join_(" ", words);
+}
+
+function leg_python(problem, leg) {
+let asked, east_m, lines, needs, north_m;
+[east_m, north_m] = iter(leg.exit_to);
+needs = (truth(leg.hold_s) ? [`hold_s=${repr(leg.hold_s)}`] : []);
+needs = add(needs, (truth(leg.turns) ? [`turns=${repr(leg.turns)}`] : []));
+needs = add(needs, ((leg.altitude_m != null) ? [`altitude_m=${repr(leg.altitude_m)}`] : []));
+asked = join_(", ", ["pose", "orbit", `exit_to=(${repr(east_m)}, ${repr(north_m)})`, ...iter(needs)]);
+lines = [...iter(_scene_lines(problem, "Leg, plan_leg")), `p = plan_leg(Leg(${str(asked)}), uav${str(_wind(problem))})`, "print(p)"];
+return join_("\n", lines);
+}
+
+function _is_least(plan) {
+let climb_s, is_late, is_longer, leg;
+[leg, climb_s] = iter([plan.leg, climb_time_s(plan.leg, plan.entry.aircraft)]);
+is_late = (gt(climb_s, 0.0) && gt(plan.exit_s, mul(climb_s, add(1.0, SAME_TIME))));
+is_longer = (gt(plan.held_s, mul(leg.hold_s, add(1.0, SAME_TIME))) && gt(plan.held_deg, mul(mul(360.0, leg.turns), add(1.0, SAME_TIME))));
+return !(truth(is_late) && truth(is_longer) && truth(plan.entry.segments));
+}
+
+function _altitudes(plan) {
+let leg, reached_s;
+leg = plan.leg;
+if (((leg.altitude_m == null) || (leg.pose.altitude_m == null))) {
+return null;
+}
+reached_s = climb_time_s(leg, plan.entry.aircraft);
+return new Map([["time_s", [0.0, reached_s, plan.duration_s]], ["altitude_m", [leg.pose.altitude_m, leg.altitude_m, leg.altitude_m]]]);
+}
+
+function _whole(plan, placed) {
+let after, entry, hold, leave, whole;
+entry = maneuver_values(plan.entry, placed.frame);
+hold = legs__segment("hold", item(HOLD_LETTERS, plan.turn), plan.entry.duration_s, plan.held_s);
+hold = bit_or(hold, new Map([["start", pose_values(plan.entry.join)], ["end", pose_values(plan.exit)]]));
+leave = legs__segment("leave", "S", plan.exit_s, plan.straight_s);
+leave = bit_or(leave, new Map([["start", pose_values(plan.exit)], ["end", pose_values(plan.end)]]));
+after = list(iter([hold, leave])).filter((segment) => gt(item(segment, "duration_s"), 0.0)).map((segment) => segment);
+whole = new Map([["duration_s", plan.duration_s], ["length_m", mul(plan.duration_s, plan.entry.aircraft.airspeed_m_s)], ["segments", [...iter(item(entry, "segments")), ...iter(after)]], ["track", legs__track(plan)]]);
+return bit_or(entry, whole);
+}
+
 function check(fence, maneuver, margin_m = null) {
 arrays.unchecked("fence", fence, Fence);
 return fence.check(maneuver, margin_m);
+}
+
+function leg_text(plan, ending, frame, autopilot, fence = null) {
+let found;
+if (eq(ending, ".kml")) {
+arrays.unchecked("frame", frame, LocalFrame);
+return leg_kml(plan, frame);
+}
+if ((ne(ending, ".plan") && eq(autopilot, Autopilot.PX4))) {
+throw errors.InvalidArgument("autopilot", `is px4, which takes no ${str(ending)} file: write a .plan file for PX4`);
+}
+found = leg_mission(plan, frame, autopilot);
+if (ne(ending, ".plan")) {
+return wpl(found);
+}
+return qgcplan(found, autopilot, plan.entry.aircraft.airspeed_m_s, fence);
 }
 
 function _search(placed, fence, margin_m) {
@@ -2025,7 +2162,7 @@ return gt(math.dist(corner, other), SAME_CORNER_M);
 
 function check_zones(fence, maneuver, margin_m) {
 let approaches, breaches, closest, closest_one, flown, least, nearest, ordered, path, places, zone, zones;
-[flown, maneuver] = iter([maneuver, (truth(isinstance(maneuver, arrays.Absent)) ? maneuver.entry : maneuver)]);
+[flown, maneuver] = iter([maneuver, (truth(isinstance(maneuver, LegPlan)) ? maneuver.entry : maneuver)]);
 arrays.unchecked("maneuver", maneuver, Maneuver);
 margin_m = ((margin_m == null) ? default_margin_m(maneuver.orbit) : not_negative("margin_m", margin_m, "metres"));
 path = flown_path(flown);
@@ -2183,13 +2320,18 @@ function _option(argument, ...numbers) {
 return join_(" ", [item(OPTIONS, argument), ...iter(list(iter(numbers)).map((number) => removesuffix_(repr(number), ".0")))]);
 }
 
-function _orbit(orbit) {
-let text;
-text = `east_m=${repr(orbit.east_m)}, north_m=${repr(orbit.north_m)}, radius_m=${repr(orbit.radius_m)}, turn="${str(orbit.turn)}"`;
-if (truth(orbit.moves)) {
-text = add(text, `, velocity_east_m_s=${repr(orbit.velocity_east_m_s)}, velocity_north_m_s=${repr(orbit.velocity_north_m_s)}`);
+function _scene_lines(problem, names) {
+let given, imported, limit, uav, values;
+uav = problem.aircraft;
+limit = _given_limit(uav);
+given = list(iter([limit, "climb_rate_m_s", "descent_rate_m_s"])).filter((name) => (uav[name] != null)).map((name) => name);
+values = join_(", ", list(iter(["airspeed_m_s", ...iter(given)])).map((name) => `${str(name)}=${repr(uav[name])}`));
+imported = join_(", ", ["Aircraft", "Orbit", "Pose", ...iter((truth(_wind(problem)) ? ["Wind"] : [])), names]);
+return [`from loiter import ${str(imported)}`, "", `pose = ${repr(problem.pose)}`, `orbit = ${str(_orbit(problem.orbit))}`, `uav = Aircraft(${str(values)})`];
 }
-return `Orbit(${str(text)})`;
+
+function _wind(problem) {
+return (ne(problem.wind, CALM) ? `, ${repr(problem.wind)}` : "");
 }
 
 function maneuver_maneuver_values(maneuver, pose = pose_values) {
@@ -2848,6 +2990,126 @@ return and(near, () => le(abs(course_error_deg), mul(factor, self.course_deg)));
 }
 }, ["radial", "course_deg"], 'Band');
 
+const Leg = struct(class extends Values {
+constructor(pose, orbit, exit_to, hold_s = 0.0, turns = 0.0, altitude_m = null) {
+super();
+this.pose = pose;
+this.orbit = orbit;
+this.exit_to = exit_to;
+this.hold_s = hold_s;
+this.turns = turns;
+this.altitude_m = altitude_m;
+this.__post_init__();
+}
+__post_init__() {
+const self = this;
+arrays.unchecked("pose", self.pose, Pose);
+arrays.unchecked("orbit", self.orbit, Orbit);
+(self["exit_to"] = _outside(self.exit_to, self.orbit));
+(self["hold_s"] = not_negative("hold_s", self.hold_s, "seconds"));
+(self["turns"] = not_negative("turns", self.turns, "turns"));
+if ((self.altitude_m != null)) {
+(self["altitude_m"] = number("altitude_m", self.altitude_m, "metres"));
+if ((self.pose.altitude_m == null)) {
+throw errors.InvalidArgument("altitude_m", "needs the altitude of the pose: Pose(..., altitude_m=...)");
+}
+}
+}
+get climb_m() {
+const self = this;
+if (((self.altitude_m == null) || (self.pose.altitude_m == null))) {
+return 0.0;
+}
+return sub(self.altitude_m, self.pose.altitude_m);
+}
+}, ["pose", "orbit", "exit_to", "hold_s", "turns", "altitude_m"], 'Leg');
+
+function plan_leg(leg, aircraft, wind = null) {
+let climb_s, problem, turns;
+arrays.unchecked("leg", leg, Leg);
+problem = Problem(leg.pose, leg.orbit, aircraft, ((wind == null) ? CALM : wind));
+climb_s = climb_time_s(leg, aircraft);
+turns = directions(leg.orbit.turn);
+return min(list(iter(turns)).map((turn) => leg__planned(leg, problem.with_turn(turn), climb_s)), { key: ((plan) => plan.duration_s) });
+}
+
+function climb_time_s(leg, aircraft) {
+let name, rate, what;
+arrays.unchecked("aircraft", aircraft, Aircraft);
+if (eq(leg.climb_m, 0.0)) {
+return 0.0;
+}
+name = (gt(leg.climb_m, 0.0) ? "climb_rate_m_s" : "descent_rate_m_s");
+rate = aircraft[name];
+if ((rate == null)) {
+what = (gt(leg.climb_m, 0.0) ? "climbs" : "descends");
+throw errors.InvalidArgument(name, `is needed: the leg ${str(what)} by ${format(abs(leg.climb_m), `g`)} m`);
+}
+return float(div(abs(leg.climb_m), rate));
+}
+
+function legs__segment(name, letter, start_s, duration_s) {
+return new Map([["name", name], ["letter", letter], ["start_s", start_s], ["duration_s", duration_s]]);
+}
+
+function legs__track(plan) {
+let after, east, end, entry, heading, last, north, states, time_s, x, y;
+[entry, end] = iter([track(plan.entry), plan.end]);
+last = HoldState(plan.duration_s, end.east_m, end.north_m, end.heading_deg);
+states = [...iter(hold_states(plan, _shares(plan.held_deg))), last];
+[time_s, east, north, heading] = iter(list(iter(zip(...iter(states)))).map((column) => list(column)));
+[x, y] = iter(arrays.reducer(heading_vector)(np.array(east), np.array(north), np.array(heading), plan.leg.orbit, plan.entry.aircraft));
+after = new Map([["time_s", time_s], ["east_m", east], ["north_m", north], ["heading_deg", heading]]);
+after = bit_or(after, new Map([["x", tolist_(x)], ["y", tolist_(y)]]));
+return new Map(list(iter(entry)).map((name) => [name, [...iter(item(entry, name)), ...iter(item(after, name))]]));
+}
+
+function leg_kml(plan, frame) {
+let aircraft, at, ends_s, first, has_altitude, i, last, latitude, longitude, mark, mode, name, outermost, places, top, track;
+outermost = root("kml", "http://www.opengis.net/kml/2.2");
+top = child(outermost, "Document", undefined, new Map([]));
+child(top, "name", str(plan), new Map([]));
+aircraft = plan.entry.aircraft;
+track = plan.sample(div(mul(CHORD_RAD, aircraft.turn_radius_m), aircraft.airspeed_m_s));
+[latitude, longitude] = iter(degrees(frame, track.east_m, track.north_m));
+has_altitude = bool(np.isfinite(track.altitude_m).all());
+mode = (truth(has_altitude) ? "absolute" : "clampToGround");
+ends_s = [0.0, plan.entry.duration_s, plan.exit_s, plan.duration_s];
+places = list(iter(zip(longitude, latitude, tolist_(track.altitude_m)))).map((one) => iter(one)).map(([lon, lat, altitude]) => add(`${format(lon, `${String(DEGREES)}`)},${format(lat, `${String(DEGREES)}`)}`, (truth(has_altitude) ? `,${format(altitude, `.2f`)}` : "")));
+at = list(iter(ends_s)).map((end_s) => int(np.abs(sub(track.time_s, end_s)).argmin()));
+add_styles(top, PARTS);
+for ([name, first, last] of rows(zip(PARTS, at, sliced(at, 1, null, null)))) {
+mark = placemark(top, `${str(name)}: ${format(item(track.time_s, first), `.1f`)} s to ${format(item(track.time_s, last), `.1f`)} s`, name);
+add_geometry(mark, "LineString", mode, sliced(places, first, add(last, 1), null));
+}
+for ([name, i] of rows(zip(["join", "exit", "end"], sliced(at, 1, null, null)))) {
+add_geometry(placemark(top, `${str(name)}: ${format(item(track.time_s, i), `.1f`)} s`), "Point", mode, [item(places, i)]);
+}
+return document(outermost);
+}
+
+function leg_mission(plan, frame, autopilot = Autopilot.ARDUPILOT) {
+let altitude_m, approach, before, centre, command, end, home, items, last, middle, orbit, params, runway, runway_m, start;
+arrays.unchecked("plan", plan, LegPlan);
+arrays.unchecked("frame", frame, LocalFrame);
+[altitude_m, orbit] = iter([exit_altitude_m(plan), checked_orbit(plan.leg.orbit)]);
+[command, params] = iter(_loiter(plan, autopilot));
+params = with_circle(command, params, orbit.radius_m, plan.turn);
+approach = approach_waypoints(plan.entry, autopilot);
+[start, centre] = iter([plan.entry.start, Waypoint(orbit.east_m, orbit.north_m)]);
+runway = (truth(isinstance(plan, arrays.Absent)) ? plan.runway : null);
+last = Waypoint(...iter((truth(runway) ? runway.touchdown : plan.leg.exit_to)));
+[home, before, middle, end] = with_middle(places_in_degrees(frame, [Waypoint(start.east_m, start.north_m), ...iter(approach), centre, last]), 1, 2);
+items = [...iter(list(iter(zip(approach, before))).map((one) => iter(one)).map(([w, place]) => _item(MavCommand.NAV_WAYPOINT, [0.0, w.acceptance_m, 0.0, 0.0], place, altitude_m))), ...iter((truth(runway) ? [LAND_START] : [])), _item(command, params, middle, altitude_m)];
+if ((runway == null)) {
+append_(items, _item(MavCommand.NAV_WAYPOINT, NO_PARAMS, end, altitude_m));
+return Mission(tuple(items), [...iter(home), MEAN_SEA_LEVEL.planned_home_m(altitude_m)]);
+}
+runway_m = MEAN_SEA_LEVEL.checked(runway.altitude_m);
+append_(items, _item(MavCommand.NAV_LAND, NO_PARAMS, end, runway_m));
+return Mission(tuple(items), [...iter(end), runway_m]);
+}
+
 function clear_entry(fence, pose, orbit, aircraft, wind = null, margin_m = null) {
 let best, blocking, enough_m, fastest_m_s, found, known, later_s, least_s, problem;
 arrays.unchecked("fence", fence, Fence);
@@ -2872,6 +3134,90 @@ later_s = sub(best.duration_s, item(known, 0).duration_s);
 return replace(found, { maneuver: best, check: fence.check(best, margin_m), later_s: later_s, searched: true, least_s: least_s });
 }
 
+const LegPlan = struct(class extends Values {
+constructor(leg, entry, held_s, held_deg, exit, straight_s) {
+super();
+this.leg = leg;
+this.entry = entry;
+this.held_s = held_s;
+this.held_deg = held_deg;
+this.exit = exit;
+this.straight_s = straight_s;
+
+}
+get turn() {
+const self = this;
+return self.entry.turn;
+}
+get exit_s() {
+const self = this;
+return add(self.entry.duration_s, self.held_s);
+}
+get duration_s() {
+const self = this;
+return add(self.exit_s, self.straight_s);
+}
+get end() {
+let east_m, north_m;
+const self = this;
+[east_m, north_m] = iter(self.leg.exit_to);
+return Pose(east_m, north_m, self.exit.heading_deg);
+}
+sample(step_s) {
+let _, east_m, entry, held, held_s, north_m, on_circle, out, parts, shares, steps, time_s;
+const self = this;
+
+entry = self.entry.sample(step_s);
+steps = [max(math.ceil(div(self.held_s, step_s)), 1), max(math.ceil(div(self.straight_s, step_s)), 1)];
+if (gt(sum(steps), MAX_SAMPLES)) {
+throw errors.InvalidArgument("step_s", `is ${str(step_s)}: it would take more than ${MAX_SAMPLES} samples`);
+}
+[held, shares] = iter(list(iter(steps)).map((n) => sliced(np.linspace(0.0, 1.0, add(n, 1)), 1, null, null)));
+[held_s, on_circle, _] = with_middle(self.on_circle(tolist_(held)), 1, 1);
+out = [add(self.exit.east_m, mul(sub(self.end.east_m, self.exit.east_m), shares)), add(self.exit.north_m, mul(sub(self.end.north_m, self.exit.north_m), shares))];
+time_s = np.concatenate([entry.time_s, held_s, add(self.exit_s, mul(self.straight_s, shares))]);
+parts = zip([entry.east_m, entry.north_m], on_circle, out);
+[east_m, north_m] = iter(list(iter(parts)).map((part) => np.concatenate(part)));
+return Track(time_s, east_m, north_m, self._altitudes(time_s));
+}
+on_circle(shares) {
+let east_m, north_m, rows_, time_s;
+const self = this;
+
+rows_ = list(iter(hold_states(self, shares))).map((at) => [at.time_s, at.east_m, at.north_m]);
+[time_s, east_m, north_m] = iter(np.array(rows_).reshape(-1, 3).T);
+return Track(time_s, east_m, north_m, self._altitudes(time_s));
+}
+_altitudes(time_s) {
+let climb_s, leg, shares;
+const self = this;
+
+[leg, climb_s] = iter([self.leg, climb_time_s(self.leg, self.entry.aircraft)]);
+if (((leg.altitude_m == null) || (leg.pose.altitude_m == null))) {
+return np.full_like(time_s, math.nan);
+}
+shares = (gt(climb_s, 0.0) ? np.minimum(div(time_s, climb_s), 1.0) : np.ones_like(time_s));
+return add(leg.pose.altitude_m, mul(leg.climb_m, shares));
+}
+to_dict() {
+let east_m, north_m;
+const self = this;
+[east_m, north_m] = iter(self.leg.exit_to);
+return new Map([["duration_s", self.duration_s], ["turn", self.turn], ["entry", maneuver_maneuver_values(self.entry)], ["join_s", self.entry.duration_s], ["held_s", self.held_s], ["held_deg", self.held_deg], ["exit_s", self.exit_s], ["exit", pose_values(self.exit)], ["straight_s", self.straight_s], ["exit_to", new Map([["east_m", east_m], ["north_m", north_m]])], ["altitude_m", self.leg.altitude_m]]);
+}
+toString() {
+const self = this;
+return `${str(self._entry_and_hold())}, is at the point after ${format(self.duration_s, `.${String(decimals_of(self.leg.orbit))}f`)} s`;
+}
+_entry_and_hold() {
+let digits, entry;
+const self = this;
+digits = decimals_of(self.leg.orbit);
+entry = `${str(or(self.entry.word, () => "on the circle already"))}, ${str(Turn_described(self.turn))}`;
+return `${str(entry)}: joins in ${format(self.entry.duration_s, `.${String(digits)}f`)} s, holds for ${format(self.held_s, `.${String(digits)}f`)} s (${format(div(self.held_deg, 360.0), `.2f`)} turns)`;
+}
+}, ["leg", "entry", "held_s", "held_deg", "exit", "straight_s"], 'LegPlan');
+
 function default_margin_m(orbit) {
 arrays.unchecked("orbit", orbit, Orbit);
 return max(LEAST_MARGIN_M, mul(MARGIN_SHARE, orbit.radius_m));
@@ -2880,10 +3226,10 @@ return max(LEAST_MARGIN_M, mul(MARGIN_SHARE, orbit.radius_m));
 function flown_path(flown) {
 let maneuver, rows_;
 
-maneuver = (truth(isinstance(flown, arrays.Absent)) ? flown.entry : flown);
+maneuver = (truth(isinstance(flown, LegPlan)) ? flown.entry : flown);
 rows_ = list(iter(maneuver.segments)).map((segment) => _segment_row(segment, maneuver));
 append_(rows_, (truth(maneuver.orbit.moves) ? _moving_hold_row(maneuver) : _hold_row(maneuver)));
-if (truth(isinstance(flown, arrays.Absent))) {
+if (truth(isinstance(flown, LegPlan))) {
 append_(rows_, _way_out_row(flown));
 }
 return FlownPath(Pieces(...iter(np.array(rows_, float).T)), len(maneuver.segments), maneuver.duration_s);
@@ -3077,6 +3423,15 @@ return errors.NotConverged(`${str(item(_MESSAGES, kernel.Status.NOT_CONVERGED))}
 
 function _with_orbit(candidate, orbit) {
 return replace(candidate, { maneuver: replace(candidate.maneuver, { orbit: orbit }) });
+}
+
+function _orbit(orbit) {
+let text;
+text = `east_m=${repr(orbit.east_m)}, north_m=${repr(orbit.north_m)}, radius_m=${repr(orbit.radius_m)}, turn="${str(orbit.turn)}"`;
+if (truth(orbit.moves)) {
+text = add(text, `, velocity_east_m_s=${repr(orbit.velocity_east_m_s)}, velocity_north_m_s=${repr(orbit.velocity_north_m_s)}`);
+}
+return `Orbit(${str(text)})`;
 }
 
 function _join_over_ground(maneuver) {
@@ -3592,6 +3947,127 @@ chord = mul(div(mul(2.0, speed), rate), sh);
 return PlanarPose(add(x, mul(chord, c)), add(y, mul(chord, s)), sub(mul(c, ch), mul(s, sh)), add(mul(s, ch), mul(c, sh)));
 }
 
+function _outside(exit_to, orbit) {
+let distance, east, north;
+if (truth(orbit.moves)) {
+throw errors.InvalidArgument("orbit", "moves: the way out is planned for a circle that is fixed to the ground");
+}
+[east, north] = iter(exit_to);
+[east, north] = iter([number("exit_to east_m", east, "metres"), number("exit_to north_m", north, "metres")]);
+distance = math.hypot(sub(east, orbit.east_m), sub(north, orbit.north_m));
+if (lt(distance, mul(orbit.radius_m, sub(1.0, ROUNDING)))) {
+throw errors.InvalidArgument("exit_to", `is ${format(distance, `.4g`)} m from the centre: it must be outside the circle of ${format(orbit.radius_m, `g`)} m`);
+}
+return [east, north];
+}
+
+function directions(turn) {
+return ((turn == Turn.EITHER) ? [Turn.CW, Turn.CCW] : [turn]);
+}
+
+function leg__planned(leg, problem, climb_s) {
+let _, east, entry, exit_, found, hold, is_late, miss, north, orbit, out, point, r, scene, side, speed_m_s, straight_m, unit_s;
+[orbit, r, unit_s] = iter([problem.orbit, problem.aircraft.turn_radius_m, problem.time_unit_s]);
+scene = kernel.scene_of(problem.in_wind());
+[east, north] = iter([div(sub(item(leg.exit_to, 0), orbit.east_m), r), div(sub(item(leg.exit_to, 1), orbit.north_m), r)]);
+side = sign_of(orbit.turn);
+point = kernel.exit_point(east, north, side, scene.R);
+out = WayOut(side, kernel.phase_of(...iter(point), side, scene.wx, scene.wy), div(leg.hold_s, unit_s), mul(math.tau, leg.turns), div(climb_s, unit_s));
+_check_length(out, scene);
+found = kernel.soonest_exit(out, scene);
+is_late = gt(found.time, mul(out.time, add(1.0, SAME_TIME)));
+hold = (truth(is_late) ? _hold_in_time(found, out, scene, problem) : null);
+if ((hold == null)) {
+[entry, miss] = iter(kernel.entry_before(found, out, scene));
+hold = leg_Hold(maneuver(problem, entry, miss), found.width, sub(found.time, found.path.time));
+}
+exit_ = _exit_pose(orbit, out, scene, r);
+straight_m = math.hypot(sub(item(leg.exit_to, 0), exit_.east_m), sub(item(leg.exit_to, 1), exit_.north_m));
+[_, speed_m_s] = iter(hold.entry.over_ground(exit_));
+return LegPlan(leg, hold.entry, mul(hold.time, unit_s), math.degrees(hold.width), exit_, div(straight_m, speed_m_s));
+}
+
+const HoldState = struct(class extends Tuple {
+constructor(time_s, east_m, north_m, heading_deg) {
+super();
+this.time_s = time_s;
+this.east_m = east_m;
+this.north_m = north_m;
+this.heading_deg = heading_deg;
+
+}
+}, ["time_s", "east_m", "north_m", "heading_deg"], 'HoldState');
+
+function hold_states(plan, shares) {
+let R, _, aircraft, c, heading_deg, last, orbit, phase, r, s, share, side, states, time_s, width, wx, wy, x, y;
+[orbit, aircraft, r] = iter([plan.leg.orbit, plan.entry.aircraft, plan.entry.aircraft.turn_radius_m]);
+[side, R, width] = iter([sign_of(plan.turn), radius_in_turns(orbit, aircraft), math.radians(plan.held_deg)]);
+[wx, wy] = iter(relative_wind(orbit, aircraft, plan.entry.wind));
+last = kernel.phase_of(sub(plan.exit.east_m, orbit.east_m), sub(plan.exit.north_m, orbit.north_m), side, wx, wy);
+states = [];
+for (share of iter(shares)) {
+phase = sub(last, mul(sub(1.0, share), width));
+[x, y, c, s, _] = iter(kernel.hold_pose(phase, side, R, wx, wy));
+time_s = add(plan.entry.duration_s, mul(kernel.time_held(phase, mul(share, width), R, wx, wy), div(r, aircraft.airspeed_m_s)));
+heading_deg = wrapped(math.degrees(math.atan2(c, s)));
+append_(states, HoldState(time_s, add(orbit.east_m, mul(r, x)), add(orbit.north_m, mul(r, y)), heading_deg));
+}
+return states;
+}
+
+function _shares(held_deg) {
+let first, shares, steps, turns;
+turns = div(held_deg, 360.0);
+if (eq(turns, 0.0)) {
+return [];
+}
+first = min(turns, 1.0);
+steps = [max(round(mul(LAP_STEPS, first)), 1), min(round(mul(LAP_STEPS, sub(turns, first))), MOST_STATES)];
+shares = list(iter(range(item(steps, 0)))).map((i) => div(mul(div(first, turns), add(i, 1)), item(steps, 0)));
+return add(shares, list(iter(range(item(steps, 1)))).map((i) => div(add(first, div(mul(sub(turns, first), add(i, 1)), item(steps, 1))), turns)));
+}
+
+function exit_altitude_m(plan) {
+let altitude_m, leg;
+leg = plan.leg;
+altitude_m = ((leg.altitude_m == null) ? leg.pose.altitude_m : leg.altitude_m);
+if ((altitude_m == null)) {
+throw errors.InvalidArgument("altitude_m", "is missing: a mission needs the altitude of the pose or of the leg");
+}
+return MEAN_SEA_LEVEL.checked(altitude_m);
+}
+
+function _loiter(plan, autopilot) {
+let given, leg, needs, radius_m, turns;
+[leg, radius_m] = iter([plan.leg, plan.leg.orbit.radius_m]);
+given = new Map([["altitude_m", ne(leg.climb_m, 0.0)], ["turns", gt(leg.turns, 0.0)], ["hold_s", gt(leg.hold_s, 0.0)]]);
+needs = list(iter(items_(given))).map((one) => iter(one)).filter(([name, is_given]) => truth(is_given)).map(([name, is_given]) => name);
+if (gt(len(needs), 1)) {
+throw errors.InvalidArgument(item(needs, 1), `goes with ${str(item(needs, 0))} in no mission: a loiter ends for one reason`);
+}
+if (gt(leg.turns, 0.0)) {
+if (eq(autopilot, Autopilot.PX4)) {
+throw errors.InvalidArgument("turns", "are in no mission of PX4: give a time or an altitude");
+}
+turns = math.ceil(leg.turns);
+if ((gt(turns, MOST_TURNS) || gt(radius_m, LARGEST_TURNS_RADIUS_M))) {
+throw errors.InvalidArgument("turns", `are stored by ArduPlane up to ${format(MOST_TURNS, `g`)}, with a radius of up to ${format(LARGEST_TURNS_RADIUS_M, `g`)} m: ${format(turns, `g`)} with ${format(radius_m, `g`)} m are not`);
+}
+return [MavCommand.NAV_LOITER_TURNS, [float(turns), 0.0, 0.0, FROM_EXIT]];
+}
+if (gt(leg.hold_s, 0.0)) {
+if (eq(autopilot, Autopilot.ARDUPILOT)) {
+throw errors.InvalidArgument("hold_s", "has no radius in a mission of ArduPlane, which flies NAV_LOITER_TIME with WP_LOITER_RAD: give turns or an altitude");
+}
+return [MavCommand.NAV_LOITER_TIME, [leg.hold_s, HEADING_REQUIRED, 0.0, FROM_EXIT]];
+}
+return [MavCommand.NAV_LOITER_TO_ALT, [HEADING_REQUIRED, 0.0, 0.0, FROM_EXIT]];
+}
+
+function _item(command, params, place, altitude_m) {
+return MissionItem(command, Frame.ABOVE_SEA, params, ...iter(place), altitude_m);
+}
+
 function first_clear(fence, maneuvers, margin_m = null) {
 let blocking, found, later_s, maneuver, ordered, tried;
 arrays.unchecked("fence", fence, Fence);
@@ -3737,6 +4213,17 @@ miss_m = abs(sub(problem.orbit.distance_m(here), problem.orbit.radius_m));
 return Maneuver(problem.pose, problem.orbit, problem.aircraft, turn, tuple(segments), miss_m, problem.wind);
 }
 }, []);
+
+const Track = struct(class extends Tuple {
+constructor(time_s, east_m, north_m, altitude_m) {
+super();
+this.time_s = time_s;
+this.east_m = east_m;
+this.north_m = north_m;
+this.altitude_m = altitude_m;
+
+}
+}, ["time_s", "east_m", "north_m", "altitude_m"], 'Track');
 
 function _segment_row(segment, maneuver) {
 let c, motion, s, start, uav;
@@ -4382,6 +4869,64 @@ const self = this;
 return math.degrees(math.atan2(mul(neg(side), self.outward_m_s), mul(side, self.clockwise_m_s)));
 }
 }, ["radius_m", "distance_m", "out_east", "out_north", "outward_m_s", "clockwise_m_s"], 'CircleOffset');
+
+const WayOut = struct(class extends Tuple {
+constructor(side, phase, hold, width, time) {
+super();
+this.side = side;
+this.phase = phase;
+this.hold = hold;
+this.width = width;
+this.time = time;
+
+}
+}, ["side", "phase", "hold", "width", "time"], 'WayOut');
+
+function _check_length(out, scene) {
+let fastest, longest;
+fastest = div(add(1.0, math.hypot(scene.wx, scene.wy)), scene.R);
+longest = max(out.width, mul(fastest, out.hold), mul(fastest, out.time));
+if (gt(longest, MOST_HELD)) {
+throw errors.OutOfRange(`the hold is too long: ${format(div(longest, math.tau), `.3g`)} turns; at most ${format(div(MOST_HELD, math.tau), `g`)} are planned`);
+}
+}
+
+function _hold_in_time(late, out, scene, problem) {
+let _, entry, join_s, k, least, time, width, x, y;
+least = kernel.least_width(out, scene);
+for (k of iter(range(1, add(LONGER_PATHS, 1)))) {
+width = max(least, (lt(k, LONGER_PATHS) ? sub(late.width, mul(k, BETWEEN_JOINS)) : least));
+time = kernel.time_held(out.phase, width, scene.R, scene.wx, scene.wy);
+if (lt(time, out.time)) {
+[x, y, _, _, _] = iter(kernel.hold_pose(sub(out.phase, width), out.side, scene.R, scene.wx, scene.wy));
+join_s = mul(sub(out.time, time), problem.time_unit_s);
+entry = arrival_in(problem, problem.orbit.turn, join_s, math.degrees(math.atan2(x, y)));
+if ((entry != null)) {
+return leg_Hold(entry, width, time);
+}
+}
+if (eq(width, least)) {
+break;
+}
+}
+return null;
+}
+
+const leg_Hold = struct(class extends Tuple {
+constructor(entry, width, time) {
+super();
+this.entry = entry;
+this.width = width;
+this.time = time;
+
+}
+}, ["entry", "width", "time"], 'leg_Hold');
+
+function _exit_pose(orbit, out, scene, r) {
+let _, c, s, x, y;
+[x, y, c, s, _] = iter(kernel.hold_pose(out.phase, out.side, scene.R, scene.wx, scene.wy));
+return Pose(add(orbit.east_m, mul(r, x)), add(orbit.north_m, mul(r, y)), wrapped(math.degrees(math.atan2(c, s))));
+}
 
 const ClearEntry = struct(class extends Tuple {
 constructor(maneuver, check, later_s, tried, blocking, least_s = 0.0, searched = false) {
@@ -5276,6 +5821,12 @@ slope = mul(k, sub(distance, 1.0));
 return div(sub(div(1.0, distance), div(mul(k, slope), add(1.0, mul(slope, slope)))), math.sqrt(add(1.0, mul(slope, slope))));
 }
 
+function arrival_in(problem, turn, time_s, bearing_deg) {
+let path;
+path = _path(placed_arrival(problem, turn, time_s, bearing_deg));
+return ((path == null) ? null : _maneuver(problem, path, turn, time_s, bearing_deg));
+}
+
 function* _zone_curves(zone, clearance_m) {
 let radius_m;
 if (truth(isinstance(zone, PolygonZone))) {
@@ -5735,6 +6286,31 @@ this.bound = bound;
 }
 }, ["value", "bound"], 'Slope');
 
+function _path(one) {
+return path_of_length(one.arrival.at(one.time), one.time, one.tolerance);
+}
+
+function placed_arrival(problem, turn, time_s, bearing_deg) {
+let R, _, arrival, c, c0, px, py, s, s0, side, time, wx, wy, x, y;
+[x, y, c0, s0, R, side, wx, wy, _] = iter(problem.with_turn(turn).in_wind());
+time = div(time_s, problem.time_unit_s);
+if (gt(time, LONGEST)) {
+throw errors.InvalidArgument("time_s", `is ${format(time_s, `g`)}: it must be at most ${format(mul(LONGEST, problem.time_unit_s), `.4g`)} s`);
+}
+[px, py, c, s, _] = iter(kernel.hold_pose(kernel.phase_of(...iter(heading_vector(bearing_deg)), side, wx, wy), side, R, wx, wy));
+arrival = Arrival(Ends(c0, s0, sub(px, x), sub(py, y), c, s), wx, wy);
+return PlacedArrival(turn, arrival, time, div(kernel.rounding(x, y, add(R, time)), sub(1.0, kernel.length(wx, wy))));
+}
+
+function _maneuver(problem, path, turn, time_s, bearing_deg) {
+let east, end, miss_m, north, orbit, segments;
+segments = tuple(_segments(problem, path));
+[orbit, [east, north]] = iter([problem.orbit.after(time_s), heading_vector(bearing_deg)]);
+end = (truth(segments) ? item(segments, -1).end : problem.pose);
+miss_m = math.hypot(sub(sub(end.east_m, orbit.east_m), mul(orbit.radius_m, east)), sub(sub(end.north_m, orbit.north_m), mul(orbit.radius_m, north)));
+return Maneuver(problem.pose, problem.orbit, problem.aircraft, turn, segments, miss_m, problem.wind);
+}
+
 function* _polygon_curves(zone, clearance_m) {
 let corners, ex, ey, fx, fy, normal, sides, turned, x, y;
 corners = _forbidden_left(zone);
@@ -5809,18 +6385,80 @@ distances = add(distances, list(iter(squares)).map((one) => iter(one)).filter(([
 return min(list(iter(distances)).filter((distance) => gt(distance, kernel.rounding(x, y, R))).map((distance) => distance), { default: math.inf });
 }
 
+function path_of_length(ends, wanted, tolerance) {
+let found, path, stretch, turns;
+found = [];
+for (stretch of iter(stretches(ends))) {
+turns = turns_more(stretch, wanted, tolerance);
+if (ge(turns, 0)) {
+path = path_within(stretch, sub(wanted, mul(TWO_PI, turns)));
+if (le(abs(sub(add(path.length, mul(TWO_PI, turns)), wanted)), mul(SAME_LENGTH, add(1.0, wanted)))) {
+append_(found, replace(path, { t1: add(path.t1, mul(TWO_PI, turns)) }));
+}
+}
+}
+return min(found, { key: ((path) => path.turning), default: null });
+}
+
+const Arrival = struct(class extends Tuple {
+constructor(ends, wx, wy) {
+super();
+this.ends = ends;
+this.wx = wx;
+this.wy = wy;
+
+}
+at(time) {
+const self = this;
+return replace(self.ends, { x: sub(self.ends.x, mul(self.wx, time)), y: sub(self.ends.y, mul(self.wy, time)) });
+}
+}, ["ends", "wx", "wy"], 'Arrival');
+
+const Ends = struct(class extends Tuple {
+constructor(c0, s0, x, y, c, s) {
+super();
+this.c0 = c0;
+this.s0 = s0;
+this.x = x;
+this.y = y;
+this.c = c;
+this.s = s;
+
+}
+}, ["c0", "s0", "x", "y", "c", "s"], 'Ends');
+
+const PlacedArrival = struct(class extends Tuple {
+constructor(turn, arrival, time, tolerance) {
+super();
+this.turn = turn;
+this.arrival = arrival;
+this.time = time;
+this.tolerance = tolerance;
+
+}
+}, ["turn", "arrival", "time", "tolerance"], 'PlacedArrival');
+
+function* _segments(problem, path) {
+let flown, here, k, letter, now, pieces, r, radius_m, straight, t;
+[here, now, r] = iter([problem.pose, 0.0, problem.aircraft.turn_radius_m]);
+pieces = [[float(path.first), path.t1], [path.curvature, path.t2], [float(path.last), path.t3]];
+for ([k, t] of rows(pieces)) {
+if (gt(t, ROUNDING)) {
+straight = lt(mul(mul(abs(k), t), t), ROUNDING);
+letter = (truth(straight) ? "S" : (gt(k, 0.0) ? "L" : "R"));
+radius_m = ((truth(straight) || eq(abs(k), 1.0)) ? r : div(r, abs(k)));
+flown = segment(here, now, letter, mul(t, r), problem.aircraft, problem.wind, radius_m);
+yield flown;
+[here, now] = iter([flown.end, add(now, flown.duration_s)]);
+}
+}
+}
+
 function _forbidden_left(zone) {
 let area, following;
 following = [...iter(sliced(zone.corners, 1, null, null)), item(zone.corners, 0)];
 area = sum(list(iter(zip(zone.corners, following))).map((one) => iter(one)).map(([[x0, y0], [x1, y1]]) => sub(mul(x0, y1), mul(x1, y0))));
 return (ne(gt(area, 0.0), zone.inclusion) ? zone.corners : sliced(zone.corners, null, null, -1));
-}
-
-function _arc(angle) {
-let within;
-
-within = np.mod(angle, math.tau);
-return np.where(gt(within, sub(math.tau, WHOLE_TURN)), 0.0, within);
 }
 
 const LeftWord = struct(class extends Tuple {
@@ -5833,6 +6471,214 @@ this.last = last;
 
 }
 }, ["control", "first", "middle", "last"], 'LeftWord');
+
+function _arc(angle) {
+let within;
+
+within = np.mod(angle, math.tau);
+return np.where(gt(within, sub(math.tau, WHOLE_TURN)), 0.0, within);
+}
+
+function* stretches(ends) {
+let a, arcs, b, family, middle, one, other, spare, touching;
+for (family of iter(families(ends))) {
+spare = (eq(family.first, family.last) ? family.distance : sub(family.distance, 2.0));
+touching = le(spare, mul(ROUNDING, add(add(1.0, abs(ends.x)), abs(ends.y))));
+if (truth(touching)) {
+arcs = (eq(family.first, family.last) ? on_one_circle(family) : on_touching_circles(family));
+yield Stretch(family, 0.0, 0.0, arcs, arcs);
+}
+if ((le(spare, 0.0) || (truth(touching) && ne(family.first, family.last)))) {
+continue;
+}
+for ([a, b] of rows(pairwise(breaks(family)))) {
+middle = mul(0.5, add(a, b));
+if (le(sub(b, a), ROUNDING)) {
+continue;
+}
+[one, other] = iter([at_end(family, a, middle), at_end(family, b, middle)]);
+if (le(one.length, other.length)) {
+yield Stretch(family, a, b, one, other);
+} else {
+yield Stretch(family, b, a, other, one);
+}
+}
+}
+}
+
+function turns_more(stretch, wanted, tolerance) {
+let short, turns;
+short = sub(sub(wanted, stretch.longest.length), tolerance);
+turns = (gt(short, 0.0) ? math.ceil(div(short, TWO_PI)) : 0);
+return (ge(sub(wanted, mul(TWO_PI, turns)), sub(stretch.shortest.length, tolerance)) ? turns : -1);
+}
+
+function path_within(stretch, wanted) {
+let _, high, low, middle;
+if (le(wanted, stretch.shortest.length)) {
+return stretch.shortest;
+}
+if (ge(wanted, stretch.longest.length)) {
+return stretch.longest;
+}
+[low, high] = iter([stretch.shorter, stretch.longer]);
+for (_ of iter(range(elongation_HALVINGS))) {
+middle = mul(0.5, add(low, high));
+if (lt(path_at(stretch.family, middle).length, wanted)) {
+low = middle;
+} else {
+high = middle;
+}
+}
+return path_at(stretch.family, low);
+}
+
+function* families(ends) {
+let distance, dx, dy, first, last, tolerance;
+tolerance = mul(ROUNDING, add(add(1.0, abs(ends.x)), abs(ends.y)));
+for ([first, last] of rows(OUTER_CONTROLS)) {
+dx = sub(mul(neg(first), ends.s0), sub(ends.x, mul(last, ends.s)));
+dy = sub(mul(first, ends.c0), add(ends.y, mul(last, ends.c)));
+distance = kernel.length(dx, dy);
+if ((eq(first, last) || ge(distance, sub(2.0, tolerance)))) {
+yield Family(first, last, ends, distance, math.atan2(dy, dx));
+}
+}
+}
+
+function on_one_circle(family) {
+let arc, ends, first;
+[first, ends] = iter([family.first, family.ends]);
+arc = kernel.angle(kernel.arc_rotation(first, ends.c0, ends.s0, ends.c, ends.s));
+return ThreeArcs(first, float(first), first, arc, 0.0, 0.0);
+}
+
+function on_touching_circles(family) {
+let _, azimuth, ends, first, last, nx, ny, t1;
+[first, last, ends, _, azimuth] = iter(family);
+[nx, ny] = iter([mul(first, math.cos(azimuth)), mul(first, math.sin(azimuth))]);
+t1 = kernel.angle(kernel.arc_rotation(first, neg(ends.s0), ends.c0, nx, ny));
+return ThreeArcs(first, 0.0, last, t1, 0.0, kernel.angle(kernel.arc_rotation(last, nx, ny, neg(ends.s), ends.c)));
+}
+
+const Stretch = struct(class extends Tuple {
+constructor(family, shorter, longer, shortest, longest) {
+super();
+this.family = family;
+this.shorter = shorter;
+this.longer = longer;
+this.shortest = shortest;
+this.longest = longest;
+
+}
+}, ["family", "shorter", "longer", "shortest", "longest"], 'Stretch');
+
+function breaks(family) {
+let _, axis, distance, first, high, inside, last, low, straight, tightest, turned;
+[first, last, _, distance, _] = iter(family);
+axis = (gt(first, 0) ? 0.0 : math.pi);
+[straight, tightest] = iter([mul(0.5, math.pi), math.acos(min(mul(0.25, distance), 1.0))]);
+if (ne(first, last)) {
+[straight, tightest] = iter([mul(2.0, math.asin(math.sqrt(div(mul(0.5, sub(distance, 2.0)), distance)))), 0.0]);
+}
+[low, high] = iter([add(axis, tightest), sub(add(axis, TWO_PI), tightest)]);
+inside = [add(axis, straight), sub(axis, straight), without_first_arc(family), without_last_arc(family)];
+turned = sorted(list(iter(inside)).map((a) => add(low, mod(sub(a, low), TWO_PI))));
+return [low, ...iter(list(iter(turned)).filter((a) => (lt(low, a) && lt(a, high))).map((a) => a)), high];
+}
+
+function at_end(family, alpha, inside) {
+let near, path, t1, t2, t3;
+[path, near] = iter([path_at(family, alpha), path_at(family, add(alpha, mul(BESIDE, sub(inside, alpha))))]);
+t1 = add(near.t1, kernel.less_whole_turns(sub(path.t1, near.t1)));
+t3 = add(near.t3, kernel.less_whole_turns(sub(path.t3, near.t3)));
+t2 = (gt(near.t2, div(1.0, BESIDE)) ? math.inf : path.t2);
+return replace(path, { t1: max(t1, 0.0), t2: t2, t3: max(t3, 0.0) });
+}
+
+function path_at(family, alpha) {
+let ahead, azimuth, beta, c1, c3, chord, chord_x, chord_y, distance, ends, first, half, last, left, s1, s3, t1, t2, t3;
+[first, last, ends, distance, azimuth] = iter(family);
+[c1, s1] = iter([math.cos(alpha), math.sin(alpha)]);
+beta = last_normal(first, last, distance, alpha);
+[c3, s3] = iter([math.cos(beta), math.sin(beta)]);
+[chord_x, chord_y] = iter([sub(sub(mul(first, c1), mul(last, c3)), distance), sub(mul(first, s1), mul(last, s3))]);
+[ahead, left] = iter([sub(mul(chord_x, s1), mul(chord_y, c1)), add(mul(chord_x, c1), mul(chord_y, s1))]);
+[chord, half] = iter([kernel.length(chord_x, chord_y), math.atan2(abs(left), ahead)]);
+t2 = ((eq(left, 0.0) && gt(0.0, ahead)) ? math.inf : (eq(left, 0.0) ? chord : div(mul(mul(chord, chord), half), abs(left))));
+t1 = mul(first, sub(add(alpha, azimuth), math.atan2(ends.c0, neg(ends.s0))));
+t3 = mul(last, sub(sub(math.atan2(ends.c, neg(ends.s)), azimuth), beta));
+return ThreeArcs(first, curvature_at(family, alpha), last, mod(t1, TWO_PI), t2, mod(t3, TWO_PI));
+}
+
+const Family = struct(class extends Tuple {
+constructor(first, last, ends, distance, azimuth) {
+super();
+this.first = first;
+this.last = last;
+this.ends = ends;
+this.distance = distance;
+this.azimuth = azimuth;
+
+}
+}, ["first", "last", "ends", "distance", "azimuth"], 'Family');
+
+const ThreeArcs = struct(class extends Tuple {
+constructor(first, curvature, last, t1, t2, t3) {
+super();
+this.first = first;
+this.curvature = curvature;
+this.last = last;
+this.t1 = t1;
+this.t2 = t2;
+this.t3 = t3;
+
+}
+get length() {
+const self = this;
+return add(add(self.t1, self.t2), self.t3);
+}
+get turning() {
+const self = this;
+return add(add(self.t1, mul(abs(self.curvature), self.t2)), self.t3);
+}
+}, ["first", "curvature", "last", "t1", "t2", "t3"], 'ThreeArcs');
+
+function without_first_arc(family) {
+return sub(math.atan2(family.ends.c0, neg(family.ends.s0)), family.azimuth);
+}
+
+function without_last_arc(family) {
+let azimuth, distance, ends, first, last;
+[first, last, ends, distance, azimuth] = iter(family);
+return add(last_normal(last, first, distance, sub(sub(math.atan2(ends.c, neg(ends.s)), azimuth), math.pi)), math.pi);
+}
+
+function last_normal(first, last, distance, alpha) {
+let along, beside, spare;
+if (eq(first, last)) {
+return sub(math.pi, alpha);
+}
+[spare, beside] = iter([sub(distance, 2.0), beside_axis(first, alpha)]);
+along = mul(first, sub(mul(add(mul(distance, distance), 4.0), beside), mul(spare, spare)));
+return math.atan2(mul(mul(spare, add(distance, 2.0)), math.sin(alpha)), along);
+}
+
+function curvature_at(family, alpha) {
+let _, beside, distance, first, last, spare;
+[first, last, _, distance, _] = iter(family);
+if (eq(first, last)) {
+return div(mul(2.0, math.cos(alpha)), or(sub(mul(mul(2.0, first), math.cos(alpha)), distance), () => neg(math.inf)));
+}
+[spare, beside] = iter([sub(distance, 2.0), beside_axis(first, alpha)]);
+return div(mul(mul(-2.0, first), sub(spare, mul(distance, beside))), or(mul(distance, add(spare, mul(2.0, beside))), () => math.inf));
+}
+
+function beside_axis(first, alpha) {
+let half;
+half = (gt(first, 0) ? math.sin(mul(0.5, alpha)) : math.cos(mul(0.5, alpha)));
+return mul(mul(2.0, half), half);
+}
 
 const STYLES = new Map([["L", "ff739e00"], ["S", "ffb27200"], ["R", "ff005ed5"], ["circle", "ff000000"]]);
 const SCHEMA = "http://www.w3.org/2001/XMLSchema-instance";
@@ -5860,6 +6706,7 @@ const places_DECIMALS = 12;
 const LEAST_SIDES = 72;
 const CONTROLS = new Map([["L", 1], ["S", 0], ["R", -1]]);
 const CALM = Wind(0.0, 0.0);
+const MAX_SAMPLES = 10000000;
 const LEAST_RADIUS_M = 1.0;
 const LARGEST_RADIUS_M = 65535.0;
 const MAX_ITEMS = 700;
@@ -5869,6 +6716,7 @@ const LARGEST_ACCEPTANCE_M = 255.0;
 const UPWIND = 0.0;
 const DOWNWIND = math.pi;
 const SIDES = new Map([[Turn.CW, kernel.Side.CW], [Turn.CCW, kernel.Side.CCW], [Turn.EITHER, kernel.Side.EITHER]]);
+const ROUNDING = mul(64.0, pow(2.0, -52));
 const WIDTH = 480.0;
 const THIN = 1.5;
 const COMMANDS = new Map([[MavCommand.NAV_LOITER_UNLIM, CircleParameters(3)], [MavCommand.NAV_LOITER_TURNS, CircleParameters(3)], [MavCommand.NAV_LOITER_TIME, CircleParameters(3)], [MavCommand.NAV_LOITER_TO_ALT, CircleParameters(2)], [MavCommand.DO_ORBIT, CircleParameters(1)], [MavCommand.DO_REPOSITION, CircleParameters(3, 4)]]);
@@ -5883,7 +6731,6 @@ const drawing_MARK = 4.5;
 const AIRCRAFT = 18.0;
 const TURN_LIMITS = new Map([["max_bank_deg", "degrees"], ["min_turn_radius_m", "metres"], ["max_turn_rate_deg_s", "degrees per second"]]);
 const STANDARD_GRAVITY_M_S2 = 9.80665;
-const ROUNDING = mul(64.0, pow(2.0, -52));
 const FILE_FORMATS = [Format([".geojson"], "map", "application/geo+json", "GeoJSON", "for maps", partial(_map, geojson, false)), Format([".kml"], "map", "application/vnd.google-earth.kml+xml", "KML", "for Google Earth", partial(_map, kml, true)), Format([".gpx"], "map", "application/gpx+xml", "GPX", "for GPS receivers", partial(_map, gpx, false)), Format([".csv"], "table", "text/csv; charset=utf-8", "CSV", "samples along the track, in metres", _table), Format([".plan"], "mission", "application/json", "Plan", "mission for QGroundControl", _plan), Format([".waypoints", ".txt"], "mission", "text/plain; charset=utf-8", "WPL", "waypoints for Mission Planner", _waypoints)];
 const AUTOPILOTS = new Map([["ardupilot", Autopilot.ARDUPILOT], ["px4", Autopilot.PX4]]);
 const JSON_FIELDS = bit_or(new Map(list(iter(["airspeed_m_s", ...iter(TURN_LIMITS)])).map((name) => [name, JsonField(`aircraft.${str(name)}`, `aircraft/${str(name)}`)])), new Map([["turn", JsonField("orbit.turn", "orbit/turn")], ["turn limit", JsonField("the turn limit of the aircraft", "aircraft")], ["turn radius", JsonField("the turn radius of the aircraft", "aircraft")], ["frame", JsonField("origin", "origin")]]));
@@ -5900,12 +6747,14 @@ const LEAST_CORNERS = 3;
 const MAX_POINTS = 20000;
 const REACH = pow(2.0, 52);
 const CHORD_ERROR = 0.002;
-const OPTIONS = new Map([["pose", "--pose"], ["orbit", "--orbit"], ["turn", "--turn"], ["airspeed_m_s", "--airspeed"], ["max_bank_deg", "--bank"], ["min_turn_radius_m", "--turn-radius"], ["max_turn_rate_deg_s", "--turn-rate"], ["wind", "--wind"], ["orbit_velocity_m_s", "--orbit-velocity"], ["tolerance_m", "--tolerance"]]);
+const OPTIONS = new Map([["pose", "--pose"], ["orbit", "--orbit"], ["turn", "--turn"], ["airspeed_m_s", "--airspeed"], ["max_bank_deg", "--bank"], ["min_turn_radius_m", "--turn-radius"], ["max_turn_rate_deg_s", "--turn-rate"], ["wind", "--wind"], ["orbit_velocity_m_s", "--orbit-velocity"], ["tolerance_m", "--tolerance"], ["exit_to", "--exit-to"], ["hold_s", "--hold"], ["turns", "--turns"], ["start_altitude_m", "--altitude"], ["altitude_m", "--to-altitude"], ["climb_rate_m_s", "--climb-rate"], ["descent_rate_m_s", "--descent-rate"]]);
 const IN_STILL_AIR = Formulation([Condition("target", "x(T) = 0, y(T) = R or -R (8)-(10)", target), Condition("join", "the last pose, reduced by (2), is the target", join), Condition("turn", "the circle is held as asked for", turn)], [EquationOfMotion("motion", "x' = 1 + u y, y' = -u x (7)", ((now) => now.reduced), ((piece, now) => sub(1.0, mul(mul(new Complex(0.0, 1.0), piece.u), now.reduced)))), EquationOfMotion("adjoint", "psi1' = u psi2, psi2' = -u psi1 (12)", ((now) => now.psi), ((piece, now) => mul(mul(-new Complex(0.0, 1.0), piece.u), now.psi))), EquationOfMotion("slope", "phi' = -psi2 (17)", ((now) => now.phi), ((piece, now) => neg(now.psi2)))], new Map([["norm", "|psi| = 1 (18)"], ["multiplier", "lambda >= 0"], ["sign", "u = sign phi, u = 0 only where phi = 0 (13)"], ["hamiltonian", "|phi| + psi1 = lambda (14)"], ["psi1", "psi1 <= lambda (16)"], ["transversality", "psi1(T) (1 + u side R) = lambda"]]), [Condition("switch", "phi = 0, psi1 = lambda at each switch", switch_), Condition("middle arc", "lasts 2 pi - 2 acos lambda, more than pi", middle_arc), Condition("slopes", "x1/y1 = -x/y (19)", slopes), Condition("line", "y = 0 while u = 0: a line through the centre", line), Condition("axis", "|psi2| times the |y| reached beyond = 0 where y changes sign", axis), Condition("last arc", "lasts pi/3 at most", partial(last_arc, { tight: true })), Condition("last arc", "lasts acos(1/(1 + R)) at most", partial(last_arc, { tight: false }))], GradientEquations("lambda grad T = -psi", "1 + min grad T . f = 0"));
 const IN_WIND = Formulation([Condition("target", "|q(T)| = R", distance_from_circle), Condition("course", "q.(e + w) = 0 at T: along the circle (1)", course), Condition("join", "the last pose over the ground is where the circle is then", conditions_join), Condition("turn", "the circle is held as asked for", turn_as_flown)], [EquationOfMotion("motion", "q' = e + w", ((now) => now.q), ((piece, now) => add(now.e, piece.w))), EquationOfMotion("turning", "e' = u J e", ((now) => now.e), ((piece, now) => mul(mul(new Complex(0.0, 1.0), piece.u), now.e))), EquationOfMotion("slope", "f' = -p.Je", ((now) => now.phi), ((piece, now) => neg(now.psi2)))], new Map([["norm", "|p| = 1"], ["multiplier", "lambda + p.w >= 0 (4)"], ["sign", "u = sign f, u = 0 only where f = 0 (4)"], ["hamiltonian", "|f| + p.e = lambda (4)"], ["transversality", "p.(e + w) + u h k (lambda - p.e) = 0 at T (5)"]]), [], GradientEquations("(lambda + p.w) grad T = -(p, f)", "1 + min grad T . (e + w, u) = 0"));
 const SHORTEST_PERIOD_S = 10.0;
 const PERIOD = 4.0;
 const BAND = Band();
+const SAME_TIME = 1e-09;
+const HOLD_LETTERS = new Map([[Turn.CW, "R"], [Turn.CCW, "L"]]);
 const SAME_CORNER_M = 1e-06;
 const TOUCH_M = 1e-06;
 const BASIS_VIOLATED = "a condition is violated";
@@ -5933,6 +6782,9 @@ const SHORT_M = 0.001;
 const DIRECTIONS = new Map([[Turn.CW, [1]], [Turn.CCW, [-1]], [Turn.EITHER, [1, -1]]]);
 const WIDE_BAND = 2.0;
 const COUNTED_DEG = 10.0;
+const CHORD_RAD = 0.1;
+const PARTS = new Map([["enter", "ff005ed5"], ["hold", "ff000000"], ["leave", "ffb27200"]]);
+const LAND_START = MissionItem(MavCommand.DO_LAND_START, Frame.NOWHERE, NO_PARAMS, 0.0, 0.0, 0.0);
 const LATE = 1.0;
 const LEAST_MARGIN_M = 5.0;
 const MARGIN_SHARE = 0.05;
@@ -5951,6 +6803,11 @@ const AT_CENTRE_M = 0.1;
 const PHASES = new Map([[1, Phase.LEFT], [0, Phase.STRAIGHT], [-1, Phase.RIGHT]]);
 const STILL = [0.0, 0.0];
 const SMALLEST_TURN = pow(2.0, -54);
+const MOST_STATES = 12000;
+const MOST_TURNS = 255;
+const LARGEST_TURNS_RADIUS_M = 255.0;
+const FROM_EXIT = 1.0;
+const HEADING_REQUIRED = 1.0;
 const STILL_AIR_GAP_M = mul(10.0, TOUCH_M);
 const CHORD_ERROR_M = 0.01;
 const WIND_GAP_M = mul(2.1, CHORD_ERROR_M);
@@ -5975,6 +6832,9 @@ const RESOLVED = 0.001;
 const AT_CORNER = "T has a corner: its one-sided derivatives";
 const LARGEST_K = 10.0;
 const FIELD_SHARE = 0.9;
+const MOST_HELD = mul(100000.0, math.tau);
+const LONGER_PATHS = 49;
+const BETWEEN_JOINS = div(math.tau, 24.0);
 const SAME_TIME_S = 0.05;
 const SIX = list(iter([[1, 0, 1], [-1, 0, -1], [1, 0, -1], [-1, 0, 1], [1, -1, 1], [-1, 1, -1]])).map((one) => iter(one)).map(([u, v, w]) => kernel.set_of(arrays.encode(u, v, w)));
 const UNKNOWN = -1;
@@ -5990,6 +6850,12 @@ const MOST_ON_LINE = 24;
 const ARC_STEP_RAD = div(math.pi, 12.0);
 const PIECE_M = 0.001;
 const NO_LENGTH_M = 1e-100;
+const LONGEST = 1000000.0;
 const WHOLE_TURN = 1e-09;
+const TWO_PI = mul(2.0, math.pi);
+const SAME_LENGTH = 1e-09;
+const elongation_HALVINGS = 70;
+const OUTER_CONTROLS = [[1, 1], [-1, -1], [1, -1], [-1, 1]];
+const BESIDE = 1e-07;
 
-export { plan, all_candidates, certificate, lap, race, fence_check, clear_plan, clear_maneuver, CircleZone, PolygonZone, Fence, _check_points, FILE_FORMATS, SaveArguments, AltitudeDatum, AUTOPILOTS, JSON_FIELDS, Pose, Orbit, Aircraft, Wind, Problem, all_fastest, heading_vector, Maneuver, LocalFrame, PlacedProblem, _kind, NARROW, SHARE, JUMP, LARGEST_GAP, VANISHING };
+export { plan, all_candidates, certificate, lap, race, leg_plan, leg_fence_check, leg_file, fence_check, clear_plan, clear_maneuver, CircleZone, PolygonZone, Fence, _check_points, FILE_FORMATS, SaveArguments, AltitudeDatum, AUTOPILOTS, JSON_FIELDS, Pose, Orbit, Aircraft, Wind, Problem, all_fastest, heading_vector, Maneuver, LocalFrame, PlacedProblem, _kind, NARROW, SHARE, JUMP, LARGEST_GAP, VANISHING };

@@ -350,6 +350,7 @@ const logical_and = {
 
 const DEGREE = Math.PI / 180;
 export const np = {
+  abs: unary(Math.abs),
   sin: unary(Math.sin),
   cos: unary(Math.cos),
   sqrt: unary(Math.sqrt),
@@ -376,12 +377,14 @@ export const np = {
   finfo: () => ({ tiny: 2 ** -1022 }),
   array,
   asarray: array,
-  arange: (count) => filled([count], (i) => i),
+  arange: (start, end, step) =>
+    end === undefined ? filled([start], (i) => i) : filled([Math.max(0, Math.ceil((end - start) / step))], (i) => start + i * step),
   full: (shape, value) => constant(Number(value))(shape),
   zeros: constant(0),
   ones: constant(1),
   empty: constant(0),
   full_like: (all, value) => constant(value)(all.shape),
+  ones_like: (all) => constant(1)(all.shape),
   zeros_like: (all) => (all instanceof Vector ? constant(0)(all.shape) : 0),
   linspace: (start, end, count) => filled([count], (i) => (i === count - 1 ? end : start + (i * (end - start)) / (count - 1))),
   searchsorted: (all, found) => found.map((one) => all.findLastIndex((other) => other < one) + 1),
@@ -394,7 +397,7 @@ export const np = {
   },
   stack,
   concatenate,
-  append: (all, more) => concatenate([all, more]),
+  append: (all, more) => concatenate([all, typeof more === "number" ? [more] : more]),
   split(all, count) {
     const n = all.length / count;
     return Array.from({ length: count }, (_, i) => all.slice(i * n, (i + 1) * n));

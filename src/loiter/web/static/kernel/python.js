@@ -310,7 +310,7 @@ export { makeComplex as complex };
 const makeComplex = (real, imag) => new Complex(real, imag);
 const DEGREE = Math.PI / 180;
 export const math = {
-  ...Object.fromEntries(["sin", "cos", "tan", "acos", "atan", "atan2", "sqrt", "hypot", "floor", "ceil", "trunc"].map((name) => [name, Math[name]])),
+  ...Object.fromEntries(["sin", "cos", "tan", "acos", "asin", "atan", "atan2", "sqrt", "hypot", "floor", "ceil", "trunc"].map((name) => [name, Math[name]])),
   pi: Math.PI,
   tau: 2 * Math.PI,
   dist: ([x, y], [a, b]) => Math.hypot(a - x, b - y),

@@ -27,6 +27,7 @@
  * @property {number} tolerance_m
  * @property {Origin | null} origin
  * @property {Fence | null} fence
+ * @property {Leg | null} [leg]
  *
  * @typedef {{name: string, east_m: number, north_m: number, radius_m: number, inclusion: boolean}} CircleZone
  * @typedef {{name: string, corners: [number, number][], inclusion: boolean}} PolygonZone  east and north of its corners
@@ -53,6 +54,31 @@
  * @property {Track | null} lap
  * @property {Maneuver | null} maneuver
  *
+ * @typedef {object} Leg  what is flown after the entry; null is not given
+ * @property {[number, number]} exit_to  the point flown to, east and north
+ * @property {number} hold_s  least time on the circle
+ * @property {number} turns  least number of turns
+ * @property {number | null} start_altitude_m  above mean sea level
+ * @property {number | null} altitude_m  at the exit
+ * @property {number | null} climb_rate_m_s
+ * @property {number | null} descent_rate_m_s
+ *
+ * @typedef {object} LegPlan  the way in, round and out
+ * @property {number} duration_s  the time at the point
+ * @property {Direction} turn
+ * @property {number} join_s
+ * @property {number} held_s
+ * @property {number} held_deg
+ * @property {number} exit_s
+ * @property {Pose} exit
+ * @property {string} sentence
+ * @property {string} instruction
+ * @property {string} command
+ * @property {string} python
+ * @property {boolean} is_least  whether nothing is sooner at the point
+ * @property {{time_s: number[], altitude_m: number[]} | null} altitudes
+ * @property {Maneuver} maneuver  the whole leg, with its track
+ *
  * @typedef {"msl" | "home" | "ground"} Reference  the level from which an altitude is measured
  * @typedef {object} Altitude  the altitude of missions, as far as the user has given it; metres
  * @property {number} [altitude_m]
@@ -75,6 +101,7 @@
  * @typedef {"L" | "S" | "R"} Letter
  * @typedef {object} Segment
  * @property {Letter} letter
+ * @property {"hold" | "leave"} [name]  of the parts of a leg after its entry
  * @property {number} start_s
  * @property {number} duration_s
  * @property {Pose} start
