@@ -93,6 +93,8 @@ PLANNING = (
     way_out.entry_before,
     slots.less_whole_turns,
     held.time_held,
+    held.width_held,
+    slots.first_in_slot,
     paths.first_path_of,
     words.controls,
     words.set_of,
@@ -126,11 +128,14 @@ def law_module() -> str:
     return Module("law.js", arithmetic, (*STEPS, identification_step.first_identification)).text()
 
 
+# Only a bound on the steps of the search for slots has an exponential: it is the browser's.
+PAGE_ARITHMETIC = PORTABLE._replace(functions=PORTABLE.functions | {"exp": "Math.exp"})
+
 # What the page needs above the kernel, and what it has elsewhere than in Python.
 ABOVE_KERNEL = (
     ("loiter.web.answers.plans", "plan"),
-    ("loiter.web.answers.plans", "all_candidates"),
     ("loiter.web.answers.plans", "certificate"),
+    ("loiter.web.answers.plans", "first_maneuver"),
     ("loiter.web.answers.tracks", "lap"),
     ("loiter.web.answers.race", "race"),
     ("loiter.web.answers.legs", "leg_plan"),
@@ -153,7 +158,8 @@ ABOVE_KERNEL = (
     ("loiter.planning.model", "Aircraft"),
     ("loiter.planning.model", "Wind"),
     ("loiter.planning.problem", "Problem"),
-    ("loiter.planning.solve", "all_fastest"),
+    ("loiter.planning.slot", "Slot"),
+    ("loiter.planning.slot", "slot_pose"),
     ("loiter.planning.compass", "heading_vector"),
     ("loiter.planning.maneuver", "Maneuver"),
     ("loiter.geo.frame", "LocalFrame"),
@@ -192,8 +198,9 @@ ELSEWHERE = {
     ("loiter.planning.landing", "LandingPlan"): "arrays.Absent",
     ("loiter.fences.model", "_invalidity"): "shapes.invalidity",
     ("loiter.fences.model", "_gap_m"): "shapes.gap_m",
-    # The page plans without slots.
-    ("loiter.planning.solve", "arrivals"): "arrays.refuse",
+    ("loiter.compiled.wind_solver", "first_in_slot"): "kernel.first_in_slot",
+    ("loiter.verify.slot_check", "NODES"): "arrays.NODES",
+    ("loiter.verify.slot_check", "WEIGHTS"): "arrays.WEIGHTS",
     ("loiter.kernel.words", "encode"): "arrays.encode",
     ("loiter.verify.trajectory", "word_of"): "arrays.word_of",
 }
@@ -205,7 +212,7 @@ import * as geodesic from "./geodesic.js";
 import * as kernel from "./kernel.js";
 import * as arrays from "./arrays.js";
 import * as shapes from "./shapes.js";
-import {{ np }} from "./numpy.js";
+import {{ Complex, np }} from "./numpy.js";
 import {{ {names} }} from "./python.js";
 import {{ shapely }} from "./shapes.js";
 
@@ -232,7 +239,7 @@ def library_module(kernel: Module) -> str:
 
 def files() -> dict[Path, str]:
     """The generated files."""
-    kernel = Module("kernel.js", PORTABLE, PLANNING)
+    kernel = Module("kernel.js", PAGE_ARITHMETIC, PLANNING)
     return {
         FOLDER / "kernel.h": Unit("kernel.h", DOUBLE._replace(large=LARGE), SINGLE).text(),
         FOLDER / "still_air_loops.h": Unit("still_air_loops.h", VECTOR, LOOPED).text(),

@@ -228,7 +228,8 @@ UNUSED = {
     "Hold": {"sample", "at"},
     "Orbit": {"fitted"},
     "LocalFrame": {"pose", "_swapped_hint", "_reaches"},
-    "Certificate": {"residual", "__str__"},
+    "Certificate": {"residual", "__str__", "claim", "source", "comparison", "ties"},
+    "SlotCertificate": {"residual", "__str__", "claim", "source", "comparison", "ties"},
     "Drawing": {"html"},
 }
 
@@ -575,7 +576,7 @@ class Writer:
             return f"!{self.condition(node.operand)}"
         if isinstance(node.op, ast.Invert):
             return f"invert({self.expression(node.operand)})"
-        if isinstance(node.operand, ast.Constant):
+        if isinstance(node.operand, ast.Constant) and not isinstance(node.operand.value, complex):
             return f"-{self.expression(node.operand)}"
         return f"neg({self.expression(node.operand)})"
 

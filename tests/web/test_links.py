@@ -31,6 +31,7 @@ SCENE = {
         ],
         "margin_m": 12.5,
     },
+    "slot": {"phase_deg": 200.5, "at_s": -10},
 }
 ALTITUDE = {"altitude_m": 900, "altitude_reference": "home", "home_altitude_m": 700}
 LINKED = {"scene": SCENE, "units": "aviation", "altitude": ALTITUDE, "view": [1, 2, 300]}
@@ -46,6 +47,8 @@ KEYS = {
     "origin": "47,8",
     "zone": "field,in,-600,-300,300,-300,300,400",
     "margin": "12.5",
+    "slot": "200.5",
+    "slot-at": "-10",
     "altitude": "900",
     "altitude-reference": "home",
     "home-altitude": "700",

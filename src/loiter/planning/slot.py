@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from math import fmod, isfinite
+from dataclasses import dataclass, replace
+from math import atan2, degrees, fmod, isfinite
+from typing import TYPE_CHECKING
 
 from loiter.errors import OutOfRange, number
 from loiter.kernel.angles import TWO_PI
 from loiter.kernel.wind.held import time_held, width_held
-from loiter.kernel.wind.hold import phase_of
+from loiter.kernel.wind.hold import hold_pose, phase_of
 from loiter.kernel.wind.wind_search import WindProblem
-from loiter.planning.compass import heading_vector
+from loiter.planning.compass import heading_vector, wrapped
+from loiter.planning.model import Pose
+
+if TYPE_CHECKING:
+    from loiter.planning.problem import Problem
 
 # At most this many turns lie between the start and the time at which the place of a slot is given: beyond, rounding of
 # the angle displaces the slot by more than 1e-10 of the radius.
@@ -46,5 +51,20 @@ def phase_at_start(slot: Slot, problem: WindProblem, time_unit_s: float) -> floa
     period = time_held(phase + TWO_PI, TWO_PI, R, wx, wy)
     time = slot.at_s / time_unit_s
     if not isfinite(time) or abs(time) > MOST_TURNS * period:
-        raise OutOfRange(f"slot at_s is {slot.at_s:g}: more than {MOST_TURNS:g} turns lie between the start and then")
+        raise OutOfRange(
+            f"the slot is given at {slot.at_s:g} s: more than {MOST_TURNS:g} turns lie between the start and then"
+        )
     return phase - width_held(phase, fmod(time, period) % period, R, wx, wy)
+
+
+def slot_pose(slot: Slot, problem: Problem, time_s: float) -> Pose:
+    """The pose of a slot `time_s` seconds from the start, in the direction of the problem: that of the hold there.
+
+    Raises `OutOfRange` where more than 100,000 turns lie between that time and `at_s`.
+    """
+    given, r = problem.in_wind(), problem.aircraft.turn_radius_m
+    then = replace(slot, at_s=slot.at_s - time_s)
+    phase = phase_at_start(then, given, problem.time_unit_s)
+    x, y, c, s, _ = hold_pose(phase, given.side, given.R, given.wx, given.wy)
+    east, north = problem.orbit.centre_after(time_s)
+    return Pose(east + r * x, north + r * y, wrapped(degrees(atan2(c, s))))

@@ -76,6 +76,13 @@ def arrivals(problem: Problem, slot: Slot) -> tuple[Maneuver, ...]:
     return maneuvers(_with_orbit(one, problem.orbit) for one in found)
 
 
+def best_and_others_in_slot(problem: Problem, slot: Slot) -> tuple[tuple[Maneuver, ...], tuple[Maneuver, ...]]:
+    """The fastest maneuver into a slot, and that in the other direction, as `best_and_others` gives them."""
+    both = [replace(m, orbit=problem.orbit) for m in arrivals(problem.with_turn(Turn.EITHER), slot)]
+    best = next(m for m in both if problem.orbit.turn in (Turn.EITHER, m.turn))
+    return (best,), tuple(m for m in both if m is not best)
+
+
 def _arrival(problem: Problem, turn: Turn, slot: Slot) -> "Solved":
     """The fastest maneuver into a slot in one direction."""
     given = problem.with_turn(turn).in_wind()

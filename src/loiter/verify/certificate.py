@@ -159,22 +159,7 @@ class Certificate:
 
     def to_dict(self) -> dict[str, object]:
         """Plain values, for JSON: no nan, no infinity."""
-        return {
-            "valid": self.valid,
-            "proved_optimal": self.proved_optimal,
-            "basis": self.basis,
-            "word": self.maneuver.word,
-            "turn": Turn(self.maneuver.turn).value,
-            "duration_s": self.maneuver.duration_s,
-            "lambda": self.lam,
-            "psi": self.psi,
-            "choice": self.choice,
-            "switches": [asdict(switch) for switch in self.switches],
-            "residuals": [_plain(residual) for residual in self.residuals],
-            "candidates": [asdict(other) | {"turn": other.turn.value} for other in self.others],
-            "runner_up": None if self.runner_up is None else self.runner_up.word,
-            "margin_s": self.margin_s,
-        }
+        return certificate_values(self)
 
     def __str__(self) -> str:
         return "\n".join([*_head(self), *_table(self.residuals), *_legend(self), self.comparison])
@@ -216,6 +201,27 @@ def certify(maneuver: Maneuver, *, tolerance_m: float = 0.0) -> Certificate:
         accuracy.tie * problem.time_unit_s,
         complete=problem.has_closed_form and tolerance_m == 0.0,
     )
+
+
+def certificate_values(certificate: Certificate) -> dict[str, object]:
+    """What certificates of every kind have, as plain values for JSON."""
+    maneuver, runner_up = certificate.maneuver, certificate.runner_up
+    return {
+        "valid": certificate.valid,
+        "proved_optimal": certificate.proved_optimal,
+        "basis": certificate.basis,
+        "word": maneuver.word,
+        "turn": Turn(maneuver.turn).value,
+        "duration_s": maneuver.duration_s,
+        "lambda": certificate.lam,
+        "psi": certificate.psi,
+        "choice": certificate.choice,
+        "switches": [asdict(switch) for switch in certificate.switches],
+        "residuals": [_plain(residual) for residual in certificate.residuals],
+        "candidates": [asdict(other) | {"turn": other.turn.value} for other in certificate.others],
+        "runner_up": None if runner_up is None else runner_up.word,
+        "margin_s": certificate.margin_s,
+    }
 
 
 def _instant(piece: FlownPiece, began: float, s: float, unit_s: float) -> Instant:

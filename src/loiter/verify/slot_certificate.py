@@ -26,7 +26,7 @@ from loiter.planning.slot import Slot
 from loiter.planning.solve import arrivals
 from loiter.verify.accuracy import accuracy_in_wind
 from loiter.verify.adjoints import vanishing_at
-from loiter.verify.certificate import Certificate, switches_of
+from loiter.verify.certificate import BASIS_VIOLATED, Certificate, certificate_values, switches_of
 from loiter.verify.conditions import IN_WIND, join, motion_residuals, turn
 from loiter.verify.residual import Candidate, Residual
 from loiter.verify.slot_check import HeldCircle, LowerBound, SlotState, no_arrival_before, resolution
@@ -81,7 +81,7 @@ class SlotCertificate(Certificate):
     @property
     def basis(self) -> str:
         """What the conditions show, or that one is violated."""
-        return BASIS_SLOT if self.valid else super().basis
+        return BASIS_SLOT if self.valid else BASIS_VIOLATED
 
     @property
     def claim(self) -> str:
@@ -102,7 +102,7 @@ class SlotCertificate(Certificate):
     def to_dict(self) -> dict[str, object]:
         """Plain values, for JSON."""
         return {
-            **super().to_dict(),
+            **certificate_values(self),
             "slot": {"phase_deg": self.slot.phase_deg, "at_s": self.slot.at_s},
             "no_arrival_before_s": self.clear_s,
         }
@@ -121,7 +121,7 @@ class ArrivalCertificate(Certificate):
     @property
     def basis(self) -> str:
         """What is shown, or that a condition is violated."""
-        return BASIS_ARRIVAL if self.valid else super().basis
+        return BASIS_ARRIVAL if self.valid else BASIS_VIOLATED
 
     @property
     def claim(self) -> str:
@@ -142,7 +142,7 @@ class ArrivalCertificate(Certificate):
 
     def to_dict(self) -> dict[str, object]:
         """Plain values, for JSON."""
-        return {**super().to_dict(), "possible_s": self.possible_s, "searched_s": self.searched_s}
+        return {**certificate_values(self), "possible_s": self.possible_s, "searched_s": self.searched_s}
 
 
 def certify_slot(maneuver: Maneuver, slot: Slot) -> SlotCertificate:

@@ -38,7 +38,8 @@ FINEST, MOST_TIMES, PASSES = 1e-9, 50_000, 60
 BEGIN, NEAR, SAMPLES, MINIMA, ZOOMS = 129, 1e-3, 2001, 20, 12
 
 # The nodes that integrate the time of a hold over a piece of the circle, and the pieces of a turn.
-NODES, WEIGHTS = np.polynomial.legendre.leggauss(8)
+GAUSS = np.polynomial.legendre.leggauss(8)
+NODES, WEIGHTS = GAUSS[0], GAUSS[1]
 PIECES = 256
 
 
@@ -89,7 +90,7 @@ class HeldCircle:
     def time(self, width: Reals) -> Reals:
         """The times at which angles have been held."""
         turns = np.floor(width / tau)
-        piece = np.minimum((width - tau * turns) * (PIECES / tau), PIECES - 1.0).astype(int)
+        piece = np.floor(np.minimum((width - tau * turns) * (PIECES / tau), PIECES - 1.0)).astype(int)
         begin = tau * turns + piece * (tau / PIECES)
         within = hold_time(self.azimuth + self.way * begin, width - begin, self.way, self.R, self.w)
         found: Reals = turns * self.times[-1] + self.times[piece] + within
@@ -100,7 +101,7 @@ class HeldCircle:
         period = float(self.times[-1])
         turns = floor(time / period)
         left = time - turns * period
-        piece = min(int(np.searchsorted(self.times, left, "right")) - 1, PIECES - 1)
+        piece = min(np.flatnonzero(self.times <= left).size - 1, PIECES - 1)
         low, high = piece * tau / PIECES, (piece + 1) * tau / PIECES
         for _ in range(60):
             middle = 0.5 * (low + high)
@@ -226,7 +227,8 @@ def no_arrival_before(start: complex, heading: complex, circle: HeldCircle, unti
     slot is reached, or passes near the curves: samples find the least distance until it is `NEAR` away again.
     """
     reached, later = REACHED * (1.0 + until), resolution(until)
-    begin, last, passed = 0.0, circle.width(until), list[NearPass]()
+    begin, last = 0.0, circle.width(until)
+    passed: list[NearPass] = []
     limit = circle.width(max(until - 0.9 * later, 0.0))
     while True:
         stopped = _first_unclear(start, heading, circle, np.linspace(begin, last, BEGIN), FINEST * (1.0 + until))
@@ -285,6 +287,6 @@ def _least_gap(start: complex, heading: complex, circle: HeldCircle, begin: floa
         low, high = float(seen.width[max(k - 1, 0)]), float(seen.width[min(k + 1, SAMPLES - 1)])
         for _ in range(ZOOMS):
             finer = watched(start, heading, circle, np.linspace(low, high, 21))
-            best, at = min(best, float(finer.gap.min())), int(np.argmin(finer.gap))
+            best, at = min(best, float(finer.gap.min())), int(finer.gap.argmin())
             low, high = float(finer.width[max(at - 1, 0)]), float(finer.width[min(at + 1, 20)])
     return best

@@ -46,8 +46,7 @@ from loiter.planning.arrival import arrivals_at
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Turn
 from loiter.planning.problem import Problem
-from loiter.planning.slot import Slot
-from loiter.planning.solve import arrivals, best_and_others
+from loiter.planning.solve import best_and_others, best_and_others_in_slot
 from loiter.verify.certificate import Certificate
 from loiter.writing import write_content
 
@@ -159,7 +158,7 @@ def plan(
             if arrive is None and bearing is None:
                 place = slot_of(slot, slot_at)
                 assert place is not None  # the bearing, or the time, is given
-                best, others = _in_slot(problem, place)
+                best, others = best_and_others_in_slot(problem, place)
                 check = partial(loiter.verify.certify_slot, slot=place)
             else:
                 best, others = _at_time(problem, arrive, bearing)
@@ -230,13 +229,6 @@ def _at_time(
             found = arrivals_at(problem.with_turn(best.turn.other), time_s, bearing_deg)
             others = [replace(m, orbit=problem.orbit) for m in found]
     return (best,), tuple(others)
-
-
-def _in_slot(problem: Problem, slot: Slot) -> tuple[tuple[Maneuver, ...], tuple[Maneuver, ...]]:
-    """The fastest maneuver into a slot, and those in the other direction."""
-    both = [replace(m, orbit=problem.orbit) for m in arrivals(problem.with_turn(Turn.EITHER), slot)]
-    best = next(m for m in both if problem.orbit.turn in (Turn.EITHER, m.turn))
-    return (best,), tuple(m for m in both if m is not best)
 
 
 def _drawn(fenced: CheckedFence | None) -> dict[str, Any]:

@@ -12,15 +12,17 @@ from loiter.fences.fence import Fence, check
 from loiter.geo.placed import PlacedProblem
 from loiter.io.document import maneuver_values
 from loiter.planning.maneuver import Maneuver
-from loiter.planning.solve import all_fastest
+from loiter.planning.slot import Slot
+from loiter.web.answers.plans import first_maneuver
 from loiter.web.answers.texts import instruction
 from loiter.web.answers.tracks import lap, track
 
 
-def fence_check(placed: PlacedProblem, fence: Fence, margin_m: float | None) -> dict[str, Any]:
+def fence_check(
+    placed: PlacedProblem, fence: Fence, margin_m: float | None, slot: Slot | None = None
+) -> dict[str, Any]:
     """Whether the first optimal maneuver and its hold stay clear: `FenceCheck.to_dict`, with its sentence."""
-    first, *_ = all_fastest(placed.problem)
-    found = check(fence, first, margin_m)
+    found = check(fence, first_maneuver(placed.problem, slot), margin_m)
     return found.to_dict() | {"sentence": found.sentence()}
 
 

@@ -8,8 +8,11 @@ from typing import Any
 from loiter.geo.placed import PlacedProblem
 from loiter.io.document import answer, maneuver_values
 from loiter.planning.maneuver import Maneuver
-from loiter.planning.solve import all_fastest, best_and_others, extremals
+from loiter.planning.problem import Problem
+from loiter.planning.slot import Slot
+from loiter.planning.solve import all_fastest, arrivals, best_and_others, best_and_others_in_slot, extremals
 from loiter.verify.certificate import Instant, certify
+from loiter.verify.slot_certificate import certify_slot
 from loiter.web.answers.texts import command, instruction, python
 from loiter.web.answers.tracks import track
 
@@ -17,9 +20,10 @@ from loiter.web.answers.tracks import track
 STEPS = 100
 
 
-def plan(placed: PlacedProblem) -> dict[str, Any]:
+def plan(placed: PlacedProblem, slot: Slot | None = None) -> dict[str, Any]:
     """`models.Plan`: the document of `loiter plan --json`, with tracks and texts."""
-    best, others = best_and_others(placed.problem)
+    problem = placed.problem
+    best, others = best_and_others(problem) if slot is None else best_and_others_in_slot(problem, slot)
     first, *_ = maneuvers = [*best, *others]
     document: dict[str, Any] = answer(best, others, placed.frame)
     for entry, maneuver in zip([document, *document["alternatives"]], maneuvers, strict=True):
@@ -29,10 +33,16 @@ def plan(placed: PlacedProblem) -> dict[str, Any]:
         "optimal": len(best),
         "other_turn_later_s": _other_turn_later_s(maneuvers),
         "instruction": instruction(first),
-        "command": command(placed.problem),
-        "python": python(placed.problem),
-        "reduced": {"x": start_x, "y": start_y, "radius": placed.problem.radius},
+        "command": command(problem, slot),
+        "python": python(problem, slot),
+        "reduced": {"x": start_x, "y": start_y, "radius": problem.radius},
     }
+
+
+def first_maneuver(problem: Problem, slot: Slot | None = None) -> Maneuver:
+    """The first maneuver of `plan`."""
+    first, *_ = all_fastest(problem) if slot is None else arrivals(problem, slot)
+    return first
 
 
 def _other_turn_later_s(maneuvers: Sequence[Maneuver]) -> float | None:
@@ -53,10 +63,10 @@ def all_candidates(placed: PlacedProblem) -> dict[str, Any]:
     }
 
 
-def certificate(placed: PlacedProblem) -> dict[str, Any]:
+def certificate(placed: PlacedProblem, slot: Slot | None = None) -> dict[str, Any]:
     """`models.Proof`: the certificate of `loiter plan --certify --json`, and the curves of its picture."""
-    first, *_ = all_fastest(placed.problem)
-    checked = certify(first, tolerance_m=placed.problem.tolerance_m)
+    first, tolerance_m = first_maneuver(placed.problem, slot), placed.problem.tolerance_m
+    checked = certify(first, tolerance_m=tolerance_m) if slot is None else certify_slot(first, slot)
     instants = [instant for piece in checked.history(STEPS) for instant in piece]
     series = {name: [getattr(instant, name) for instant in instants] for name in Instant._fields}
     switches = [switch.time_s for switch in checked.switches]

@@ -6,6 +6,7 @@ from loiter.planning.leg import Leg, LegPlan
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CALM, TURN_LIMITS, Aircraft, Orbit, Turn
 from loiter.planning.problem import Problem
+from loiter.planning.slot import Slot
 from loiter.planning.vocabulary import ACTIONS
 
 # The options of `loiter plan` for what a scene has.
@@ -27,6 +28,8 @@ OPTIONS = {
     "altitude_m": "--to-altitude",
     "climb_rate_m_s": "--climb-rate",
     "descent_rate_m_s": "--descent-rate",
+    "slot phase_deg": "--slot",
+    "slot at_s": "--slot-at",
 }
 
 
@@ -42,8 +45,8 @@ def instruction(maneuver: Maneuver) -> str:
     return f"{now} {hold.capitalize()} from {maneuver.duration_s:.{decimals}f} s." if later else now
 
 
-def command(problem: Problem) -> str:
-    """The command line that plans the scene, in local metres."""
+def command(problem: Problem, slot: Slot | None = None) -> str:
+    """The command line that plans the scene, or the entry into a slot, in local metres."""
     pose, orbit, wind = problem.pose, problem.orbit, problem.wind
     limit = _given_limit(problem.aircraft)
     words = [
@@ -58,19 +61,18 @@ def command(problem: Problem) -> str:
     velocity = orbit.velocity_east_m_s, orbit.velocity_north_m_s
     words += [_option("orbit_velocity_m_s", *velocity)] if orbit.moves else []
     words += [_option("tolerance_m", problem.tolerance_m)] if problem.tolerance_m else []
+    words += [_option("slot phase_deg", slot.phase_deg)] if slot else []
+    words += [_option("slot at_s", slot.at_s)] if slot and slot.at_s else []
     return " ".join(words)
 
 
-def python(problem: Problem) -> str:
-    """Python code that computes the plan as `m` and prints it."""
+def python(problem: Problem, slot: Slot | None = None) -> str:
+    """Python code that computes the plan, or the entry into a slot, as `m` and prints it."""
     tolerance = f", tolerance_m={problem.tolerance_m!r}" if problem.tolerance_m else ""
-    return "\n".join(
-        [
-            *_scene_lines(problem, "plan_all"),
-            f"m, *as_fast = plan_all(pose, orbit, uav{_wind(problem)}{tolerance})",
-            "print(m.word, m.turn.value, m.duration_s)",
-        ]
-    )
+    names, planned = "plan_all", f"m, *as_fast = plan_all(pose, orbit, uav{_wind(problem)}{tolerance})"
+    if slot:
+        names, planned = "Slot, plan", f"m = plan(pose, orbit, uav{_wind(problem)}, slot={slot!r})"
+    return "\n".join([*_scene_lines(problem, names), planned, "print(m.word, m.turn.value, m.duration_s)"])
 
 
 def leg_instruction(plan: LegPlan) -> str:

@@ -66,3 +66,8 @@ export const encode = (u1, u2 = ABSENT, u3 = ABSENT) => encoded(u1, u2, u3);
 
 /** `loiter.verify.trajectory.word_of`. */
 export const word_of = (maneuver) => Word[maneuver.word || "EMPTY"];
+
+/** The nodes and weights of Gauss's quadrature, `numpy.polynomial.legendre.leggauss(8)`. */
+const [HALF, WEIGHT] = [[0.18343464249564978, 0.525532409916329, 0.7966664774136267, 0.9602898564975362], [0.36268378337836166, 0.3137066458778869, 0.22238103445337443, 0.10122853629037706]];
+export const NODES = [...HALF.map((one) => -one), ...HALF];
+export const WEIGHTS = [...WEIGHT, ...WEIGHT];

@@ -19,19 +19,26 @@ export { synthesis } from "./synthesis.js";
 const library = translated;
 
 /** The plan of a scene and all alternatives. @param {Scene} scene @returns {Answer} */
-export const plan = (scene) => plain(library.plan(placed(scene)));
+export const plan = (scene) => plain(library.plan(placed(scene), slotOf(scene)));
 
 /** The certificate of the first optimal maneuver. @param {Scene} scene @returns {Proof} */
-export const certificate = (scene) => plain(library.certificate(placed(scene)));
+export const certificate = (scene) => plain(library.certificate(placed(scene), slotOf(scene)));
 
 /** Rounds of the circle after the first optimal maneuver. @param {Scene} scene @param {number} [laps] @returns {Track} */
-export const lap = (scene, laps) => plain(library.lap(library.all_fastest(placed(scene).problem)[0], laps));
+export const lap = (scene, laps) => plain(library.lap(firstOf(scene), laps));
+
+/**
+ * Where the slot of a scene is at a time, if it moves in a direction of the hold.
+ *
+ * @param {Scene} scene
+ * @param {import("../shared/types.js").Direction} turn
+ * @param {number} time_s
+ * @returns {import("../shared/types.js").Pose}
+ */
+export const slotPose = (scene, turn, time_s) => library.slot_pose(slotOf(scene), placed(scene).problem.with_turn(turn), time_s);
 
 /** Other guidance laws from the same start. @param {Scene} scene @returns {import("../shared/types.js").Racer[]} */
 export const race = (scene) => plain(library.race(placed(scene).problem));
-
-/** Every extremal. @param {Scene} scene */
-export const candidates = (scene) => plain(library.all_candidates(placed(scene)));
 
 /** The way in, round and out of a scene with a leg. @param {Scene} scene @returns {import("../shared/types.js").LegPlan} */
 export const legPlan = (scene) => plain(library.leg_plan(placed(scene), scene.leg));
@@ -43,7 +50,11 @@ export const legPlan = (scene) => plain(library.leg_plan(placed(scene), scene.le
  * @returns {import("../shared/types.js").FenceCheck}
  */
 export const fenceCheck = (scene) =>
-  plain(scene.leg ? library.leg_fence_check(placed(scene), scene.leg, ...fenced(scene)) : library.fence_check(placed(scene), ...fenced(scene)));
+  plain(
+    scene.leg
+      ? library.leg_fence_check(placed(scene), scene.leg, ...fenced(scene))
+      : library.fence_check(placed(scene), ...fenced(scene), slotOf(scene)),
+  );
 
 /** The fastest clear entry that is found. @param {Scene} scene @returns {import("../shared/types.js").ClearEntry} */
 export const clearEntry = (scene) => plain(library.clear_plan(placed(scene), ...fenced(scene)));
@@ -59,20 +70,20 @@ const CHORD_ERROR_M = 1; // as in `loiter plan --save`
  */
 export function file(format, { altitude_m = undefined, altitude_reference = "msl", home_altitude_m, ...scene }) {
   if (scene.leg) return { content: library.leg_file(placed(scene), scene.leg, `.${format}`), type: "application/octet-stream" };
-  const { problem, frame } = placed(scene);
-  const [first] = library.all_fastest(problem);
-  const isClear = !scene.fence || fenceCheck(scene).clear;
-  const maneuver = isClear ? first : library.clear_maneuver(placed(scene), ...fenced(scene));
+  const { frame } = placed(scene);
+  // No clear entry is searched for into a slot.
+  const isPlan = !scene.fence || scene.slot || fenceCheck(scene).clear;
+  const maneuver = isPlan ? firstOf(scene) : library.clear_maneuver(placed(scene), ...fenced(scene));
   if (format === "svg") return { content: maneuver._drawing().svg(), type: "image/svg+xml" };
   library._check_points(maneuver, { spacing_m: null, chord_error_m: CHORD_ERROR_M });
   const datum = library.AltitudeDatum(altitude_reference, home_altitude_m ?? null);
   const altitude = altitude_m === undefined ? null : datum.checked(altitude_m);
   const ending = `.${format}`;
   // A mission with a loiter alone lets the autopilot choose its way there.
-  const isMission = ["plan", "waypoints"].includes(format);
+  const isWholePath = ["plan", "waypoints"].includes(format) && (!isPlan || Boolean(scene.slot));
   const { content, media_type } = library.FILE_FORMATS.find((/** @type {{endings: string[]}} */ { endings }) => endings.includes(ending));
   const autopilot = library.AUTOPILOTS.get("ardupilot");
-  const options = library.SaveArguments(maneuver, frame, altitude, datum, null, CHORD_ERROR_M, autopilot, !isClear && isMission);
+  const options = library.SaveArguments(maneuver, frame, altitude, datum, null, CHORD_ERROR_M, autopilot, isWholePath);
   return { content: content(ending, options), type: media_type };
 }
 
@@ -100,6 +111,12 @@ function placed({ pose, orbit, aircraft, wind, tolerance_m = 0, origin }) {
   const frame = origin ? library.LocalFrame(origin.latitude_deg, origin.longitude_deg) : null;
   return library.PlacedProblem(problem, frame);
 }
+
+/** The slot of a scene, as the library has it; null where it has none. @param {Scene} scene */
+const slotOf = ({ slot }) => (slot ? library.Slot(slot.phase_deg, slot.at_s) : null);
+
+/** The maneuver of the plan. @param {Scene} scene */
+const firstOf = (scene) => library.first_maneuver(placed(scene).problem, slotOf(scene));
 
 /** The fence of a scene and the margin, as the library has them. @param {Scene} scene */
 function fenced({ fence }) {

@@ -269,6 +269,51 @@ export const Word = { EMPTY: 0, R: 1, L: 3, SR: 6, SL: 14, RL: 13, LR: 7, RSR: 2
  * @typedef {{path: Path, width: number, time: number}} Exit
  */
 
+/**
+ * A slot: the side on which the circle is held, and the phase (`hold`) of the slot at the time 0.
+ *
+ * @typedef {{side: number, phase: number}} Slot
+ */
+
+/**
+ * The slot after an angle `width` of the circle: the time, and the point from the start, in the frame of the air.
+ *
+ * (c, s) is the heading there, `advance` the derivative of the time by the width, `turning` that of the size of the
+ * angle through which the heading has turned since the time 0, and `turned` this angle.
+ *
+ * @typedef {{width: number, time: number, x: number, y: number, c: number, s: number, advance: number,
+ *         turning: number, turned: number}} SlotPose
+ */
+
+/**
+ * Bounds within `step` of a width: on V, on its derivative and on the rate at which the heading turns.
+ *
+ * @typedef {{step: number, speed: number, speed_change: number, turning: number}} Bounds
+ */
+
+/**
+ * Length less time of a word with a straight piece, less whole turns, in [-pi, pi], and its derivative.
+ *
+ * `apart` is the square of the distance of the outer circles' centres less 4, and `apart_slope` its derivative: LSR
+ * and RSL exist where it is not negative.
+ *
+ * @typedef {{value: number, slope: number, apart: number, apart_slope: number}} Excess
+ */
+
+/**
+ * Bounds on the second derivative of |d|^2: it is at least -`down`, at most `up`, and no larger than `size`.
+ *
+ * @typedef {{down: number, up: number, size: number}} Bends
+ */
+
+/**
+ * The function whose roots are the arrivals of LRL or RLR, and its derivative.
+ *
+ * With it the middle arc and the vector between the centres of the outer arcs.
+ *
+ * @typedef {{value: number, slope: number, arc: number, dx: number, dy: number}} Middle
+ */
+
 
 /* pi/2 in three pieces, the first two of 33 digits, so that multiples below 2^20 are exact (Cody and Waite 1980). */
 export const HALF_PI_1 = 1.5707963267341256;
@@ -452,6 +497,25 @@ export const HALVINGS = 60;
  * 1.
  */
 export const MEANS = 7;
+
+/* Halvings of the angle that is held until the circle can be reached. */
+export const BEGIN_HALVINGS = 20;
+
+/* Steps towards the slot while it is out of reach, and the time that remains when they end. */
+export const APPROACHES = 200;
+export const NEAR = 0.01;
+
+/* The ground speed changes by no more than a factor exp(GROWTH) within a step. */
+export const GROWTH = 0.5;
+
+/* Steps after which the search for one word gives up: a circle of 10,000 turn radii takes fewer. */
+export const MOST_STEPS = 100000;
+
+/* Next to a double root a step is at least this long, radians: there the function is within rounding of zero. */
+export const DOUBLE_ROOT = 1e-08;
+
+/* Halvings, or better steps, that shrink a bracket to rounding. */
+export const ROOT_STEPS = 120;
 
 /**
  * The reduced state (2) of a vehicle at (x, y), relative to the circle's centre, with the unit heading (c, s).
@@ -4314,4 +4378,458 @@ export function entry_before(found, out, scene) {
  */
 export function less_whole_turns(excess) {
     return excess - TWO_PI * Math.floor(excess / TWO_PI + 0.5);
+}
+
+/**
+ * A width before which the slot is out of reach.
+ *
+ * @type {(slot: Slot, scene: WindScene) => number}
+ */
+export function begin_width(slot, scene) {
+    const x = scene.x, y = scene.y, R = scene.R, wx = scene.wx, wy = scene.wy;
+    const square = x * x + y * y - R * R;
+    if (square <= 0.0) {
+        return 0.0;
+    }
+    // The circle is out of reach while |q + w t| > t + R.
+    const spare = 1.0 - wx * wx - wy * wy, half = R - (x * wx + y * wy);
+    const root = Math.sqrt(half * half + spare * square);
+    const time = half > 0.0 ? square / (root + half) : (root - half) / spare;
+    if (wx === 0.0 && wy === 0.0) {
+        return time / R;
+    }
+    const wind = length(wx, wy);
+    let least = (1.0 - wind) * time / R, most = (1.0 + wind) * time / R;
+    for (let pass_1 = 0; pass_1 < BEGIN_HALVINGS; pass_1++) {
+        const middle = 0.5 * (least + most);
+        if (time_held(slot.phase + middle, middle, R, wx, wy) < time) {
+            least = middle;
+        } else {
+            most = middle;
+        }
+    }
+    return least;
+}
+
+/**
+ * The angle between the heading and the track of a hold at a phase, zero against the wind.
+ *
+ * @type {(phase: number, wx: number, wy: number) => number}
+ */
+export function crab_angle(phase, wx, wy) {
+    const across = length(wx, wy) * sin(phase);
+    return atan2(across, Math.sqrt((1.0 - across) * (1.0 + across)));
+}
+
+/**
+ * The slot after an angle of the circle.
+ *
+ * @type {(width: number, slot: Slot, scene: WindScene) => SlotPose}
+ */
+export function slot_pose(width, slot, scene) {
+    const wx = scene.wx, wy = scene.wy;
+    const phase = slot.phase + width;
+    const hold_pose_1 = hold_pose(phase, slot.side, scene.R, wx, wy);
+    const px = hold_pose_1[0], py = hold_pose_1[1], c = hold_pose_1[2], s = hold_pose_1[3], g = hold_pose_1[4];
+    const time = time_held(phase, width, scene.R, wx, wy);
+    const crab = g - (wx * (c + wx) + wy * (s + wy)) / g;
+    const turned = width - (crab_angle(phase, wx, wy) - crab_angle(slot.phase, wx, wy));
+    return { width, time, x: px - wx * time - scene.x, y: py - wy * time - scene.y, c, s, advance: scene.R / g,
+            turning: g / crab, turned };
+}
+
+/**
+ * The bounds next to a width.
+ *
+ * @type {(last: number, pose: SlotPose, slot: Slot, scene: WindScene) => Bounds}
+ */
+export function bounds_at(last, pose, slot, scene) {
+    const wind = length(scene.wx, scene.wy);
+    const twist = wind / Math.sqrt((1.0 - wind) * (1.0 + wind));
+    let step = 1.0, advance = pose.advance;
+    if (wind > 0.0) {
+        step = min_real(GROWTH / twist, 1.0);
+        advance = advance * Math.exp(min_real(GROWTH, twist));
+    }
+    const speed = max_real(advance + (last === slot.side ? 1.0 + wind : wind - 1.0), 0.0);
+    return { step, speed, speed_change: twist * (advance + 1.0), turning: 1.0 + wind };
+}
+
+/**
+ * The slot at a width before which it is out of reach: further away than the time.
+ *
+ * @type {(slot: Slot, scene: WindScene) => SlotPose}
+ */
+export function first_within_reach(slot, scene) {
+    let pose = slot_pose(begin_width(slot, scene), slot, scene);
+    for (let pass_1 = 0; pass_1 < APPROACHES; pass_1++) {
+        const gap = length(pose.x, pose.y) - pose.time;
+        if (gap <= NEAR) {
+            break;
+        }
+        const limits = bounds_at(0, pose, slot, scene);
+        // The distance falls at most as fast as the time grows: the slot flies at the speed 1 through the air.
+        const advance = limits.speed + 1.0;
+        pose = slot_pose(pose.width + min_real(0.5 * gap / advance, limits.step), slot, scene);
+    }
+    return pose;
+}
+
+/**
+ * V, the derivative of the way of the centre of the last arc.
+ *
+ * @type {(last: number, pose: SlotPose, slot: Slot) => number}
+ */
+export function centre_speed(last, pose, slot) {
+    return max_real(pose.advance + (last * slot.side + 0) * pose.turning, 0.0);
+}
+
+/**
+ * The excess of the word with the first control u, a straight piece and the control `last`.
+ *
+ * @type {(u: number, last: number, pose: SlotPose, slot: Slot, scene: WindScene) => Excess}
+ */
+export function excess_at(u, last, pose, slot, scene) {
+    const c0 = scene.c, s0 = scene.s, c = pose.c, s = pose.s;
+    const dx = pose.x - last * s + u * s0, dy = pose.y + last * c - u * c0;
+    const speed = centre_speed(last, pose, slot);
+    const along = dx * c + dy * s;
+    let straight, arcs, ahead;
+    if (u === last) {
+        straight = length(dx, dy);
+        arcs = angle(arc_rotation(u, c0, s0, c, s));
+        ahead = straight > 0.0 ? along / straight : 1.0;
+        return { value: less_whole_turns(straight + arcs - pose.time), slope: -speed * (1.0 - ahead), apart: 1.0,
+                apart_slope: 0.0 };
+    }
+    const apart = dx * dx + dy * dy - 4.0, apart_slope = 2.0 * speed * along;
+    if (apart <= -2.0) {
+        return { value: NaN, slope: 0.0, apart, apart_slope };
+    }
+    const tangent_1 = tangent(u, dx, dy);
+    straight = tangent_1[0];
+    const q1 = tangent_1[1], q2 = tangent_1[2];
+    const arc_rotation_2 = arc_rotation(u, c0, s0, q1, q2);
+    const across1 = arc_rotation_2[0], along1 = arc_rotation_2[1];
+    const arc_rotation_3 = arc_rotation(last, q1, q2, c, s);
+    const across2 = arc_rotation_3[0], along2 = arc_rotation_3[1];
+    arcs = atan2(across1 * along2 + along1 * across2, along1 * along2 - across1 * across2);
+    ahead = min_real(q1 * c + q2 * s, 1.0);
+    return { value: less_whole_turns(straight + arcs - pose.time), slope: -speed * (1.0 - ahead), apart, apart_slope
+            };
+}
+
+/**
+ * The path with whole turns added to its first arc, so that it takes the time of the slot; `NO_PATH` if longer.
+ *
+ * @type {(path: Path, pose: SlotPose) => Path}
+ */
+export function with_turns(path, pose) {
+    const turns = Math.floor((pose.time - path.time) / TWO_PI + 0.5);
+    if (turns < 0.0) {
+        return NO_PATH;
+    }
+    return { ...path, time: path.time + TWO_PI * turns, t1: path.t1 + TWO_PI * turns };
+}
+
+/**
+ * The path of a word with a straight piece to the slot, with as many whole turns first as the time leaves.
+ *
+ * @type {(u: number, last: number, pose: SlotPose, scene: WindScene) => Path}
+ */
+export function path_with_straight(u, last, pose, scene) {
+    const c0 = scene.c, s0 = scene.s, c = pose.c, s = pose.s;
+    const dx = pose.x - last * s + u * s0, dy = pose.y + last * c - u * c0;
+    let straight, q1, q2;
+    if (u === last) {
+        straight = length(dx, dy);
+        const chosen_1 = straight > 0.0;
+        q1 = chosen_1 ? dx / straight : c0;
+        q2 = chosen_1 ? dy / straight : s0;
+    } else {
+        const tangent_2 = tangent(u, dx, dy);
+        straight = tangent_2[0];
+        q1 = tangent_2[1];
+        q2 = tangent_2[2];
+    }
+    const first = arc_time(arc_rotation(u, c0, s0, q1, q2), 1.0 + straight, scene.arc_tolerance);
+    const third = arc_time(arc_rotation(last, q1, q2, c, s), 1.0, scene.arc_tolerance);
+    return with_turns({ time: first + straight + third, word: encode(u, 0, last), t1: first, t2: straight, t3:
+            third, lam: 1.0, p1: q1, p2: q2 }, pose);
+}
+
+/**
+ * Bounds on the second derivative of |d|^2 where |d| is at most `distance`.
+ *
+ * @type {(u: number, distance: number, limits: Bounds, scene: WindScene) => Bends}
+ */
+export function bends_of_square(u, distance, limits, scene) {
+    const general = 2.0 * (limits.speed * limits.turning + limits.speed_change) * distance, rise = 2.0 *
+            limits.speed * limits.speed;
+    if (limits.speed_change > 0.0) {
+        return { down: general, up: general + rise, size: Infinity };
+    }
+    // In still air the last centre moves round the circle's: the square is a constant and a cosine.
+    return { down: general, up: general + rise, size: 2.0 * limits.speed * length(scene.x - u * scene.s, scene.y + u
+            * scene.c) };
+}
+
+/**
+ * How far a function cannot come down to zero that has this value and derivative, if its second is >= -`bend`.
+ *
+ * @type {(value: number, slope: number, bend: number) => number}
+ */
+export function step_without_zero(value, slope, bend) {
+    if (bend <= 0.0 && slope >= 0.0) {
+        return Infinity;
+    }
+    return 2.0 * value / (Math.sqrt(slope * slope + 2.0 * bend * value) - slope);
+}
+
+/**
+ * A step within which the excess falls by at most half a turn, and LSR and RSL neither begin nor cease to exist.
+ *
+ * @type {(u: number, last: number, excess: Excess, limits: Bounds, scene: WindScene, tolerance: number) => number}
+ */
+export function step_of_excess(u, last, excess, limits, scene, tolerance) {
+    let step = limits.step;
+    if (limits.speed > 0.0) {
+        step = min_real(step, 0.5 * 3.141592653589793 / limits.speed);
+    }
+    if (u === last) {
+        return step;
+    }
+    const distance = Math.sqrt(max_real(excess.apart + 4.0, 0.0)) + limits.speed * step;
+    const bends = bends_of_square(u, distance, limits, scene);
+    const low = min_real(bends.down, bends.size), high = min_real(bends.up, bends.size);
+    if (Math.abs(excess.apart) <= tolerance) {
+        return min_real(step, max_real(high > 0.0 ? Math.abs(excess.apart_slope) / high : step, DOUBLE_ROOT));
+    }
+    if (excess.apart > 0.0) {
+        return min_real(step, step_without_zero(excess.apart, excess.apart_slope, low));
+    }
+    return min_real(step, step_without_zero(-excess.apart, -excess.apart_slope, high));
+}
+
+/**
+ * The slot where the excess is zero, between a pose where it is not negative and one where it is.
+ *
+ * @type {(u: number, last: number, a: SlotPose, b: SlotPose, slot: Slot, scene: WindScene) => SlotPose}
+ */
+export function root_of_excess(u, last, a, b, slot, scene) {
+    let least = a.width, most = b.width;
+    let width = 0.5 * (least + most), best = a, best_value = Infinity;
+    for (let i = 0; i < ROOT_STEPS; i++) {
+        const pose = slot_pose(width, slot, scene);
+        const excess = excess_at(u, last, pose, slot, scene);
+        if (Math.abs(excess.value) < best_value) {
+            best = pose;
+            best_value = Math.abs(excess.value);
+        }
+        if (excess.value >= 0.0) {
+            least = width;
+        } else {
+            most = width;
+        }
+        const newton = excess.slope < 0.0 ? width - excess.value / excess.slope : least;
+        // Every third step bisects, since Newton's method is slow at a triple root.
+        /** @type {boolean} */ const is_newton = integer_modulo(i, 3) !== 2 && (least < newton && newton < most);
+        const following = is_newton ? newton : 0.5 * (least + most);
+        if (excess.value === 0.0 || (following === width || following === least || following === most)) {
+            break;
+        }
+        width = following;
+    }
+    return best;
+}
+
+/**
+ * The first arrival by the word with these outer controls and a straight piece; `NO_PATH` for none by `until`.
+ *
+ * @type {(u: number, last: number, begin: SlotPose, slot: Slot, scene: WindScene, until_: number) => WindCandidate}
+ */
+export function first_with_straight(u, last, begin, slot, scene, until_) {
+    let pose = begin;
+    const none = { phase: 0.0, side: slot.side, path: NO_PATH };
+    const tolerance = 4.0 * scene.arc_tolerance;
+    let excess = excess_at(u, last, pose, slot, scene);
+    if (bounds_at(last, pose, slot, scene).speed <= ROUNDING) {
+        // The last arc is on the circle itself: the vehicle would have been in the slot before.
+        return none;
+    }
+    let path;
+    if (Math.abs(excess.value) <= tolerance && excess.apart >= -tolerance) {
+        path = path_with_straight(u, last, pose, scene);
+        if (path.time < Infinity) {
+            return { phase: slot.phase + pose.width, side: slot.side, path };
+        }
+    }
+    for (let pass_1 = 0; pass_1 < MOST_STEPS; pass_1++) {
+        if (pose.time > until_) {
+            return none;
+        }
+        const limits = bounds_at(last, pose, slot, scene);
+        const step = step_of_excess(u, last, excess, limits, scene, tolerance);
+        const ahead = slot_pose(pose.width + step, slot, scene);
+        const excess_ahead = excess_at(u, last, ahead, slot, scene);
+        /** @type {boolean} */ const exists = excess.apart >= -tolerance && excess_ahead.apart >= -tolerance;
+        if (exists && (excess.value >= 0.0 && 0.0 > excess_ahead.value) && excess.value - excess_ahead.value <=
+                3.141592653589793 + 1.0) {
+            const root = root_of_excess(u, last, pose, ahead, slot, scene);
+            path = path_with_straight(u, last, root, scene);
+            if (path.time < Infinity) {
+                return { phase: slot.phase + root.width, side: slot.side, path };
+            }
+        }
+        pose = ahead;
+        excess = excess_ahead;
+    }
+    return none;
+}
+
+/**
+ * The path that takes less time: a where they tie.
+ *
+ * @type {(a: WindCandidate, b: WindCandidate) => WindCandidate}
+ */
+export function earlier(a, b) {
+    return b.path.time < a.path.time ? b : a;
+}
+
+/**
+ * The function for LRL (u = +1) or RLR: `half`, plus half the time less the heading's turn, is the middle arc.
+ *
+ * @type {(u: number, half: number, pose: SlotPose, slot: Slot, scene: WindScene) => Middle}
+ */
+export function middle_at(u, half, pose, slot, scene) {
+    const dx = pose.x - u * (pose.s - scene.s), dy = pose.y + u * (pose.c - scene.c);
+    const arc = half + 0.5 * (pose.time + (u * slot.side + 0) * pose.turned);
+    const across = sin(0.5 * arc);
+    const value = dx * dx + dy * dy - 16.0 * across * across;
+    const slope = centre_speed(u, pose, slot) * (2.0 * (dx * pose.c + dy * pose.s) - 4.0 * sin(arc));
+    return { value, slope, arc: arc - TWO_PI * Math.floor(arc / TWO_PI), dx, dy };
+}
+
+/**
+ * The path of LRL or RLR to the slot, with as many whole turns first as the time leaves.
+ *
+ * @type {(u: number, middle: Middle, pose: SlotPose, scene: WindScene) => Path}
+ */
+export function path_of_three_arcs(u, middle, pose, scene) {
+    const ends = { c0: scene.c, s0: scene.s, c: pose.c, s: pose.s, wx: scene.wx, wy: scene.wy, arc_tolerance:
+            scene.arc_tolerance };
+    return with_turns(three_arcs(u, middle.arc, middle.dx, middle.dy, ends), pose);
+}
+
+/**
+ * The first arrival by LRL (u = +1) or RLR; `halves` 0 or 1 chooses between middle arcs half a turn apart.
+ *
+ * @type {(u: number, halves: number, begin: SlotPose, slot: Slot, scene: WindScene, until_: number) => WindCandidate}
+ */
+export function first_of_three_arcs(u, halves, begin, slot, scene, until_) {
+    const none = { phase: 0.0, side: slot.side, path: NO_PATH };
+    if (bounds_at(u, begin, slot, scene).speed <= ROUNDING) {
+        return none;
+    }
+    const origin = slot_pose(0.0, slot, scene);
+    let pose = begin;
+    const tolerance = 12.0 * scene.arc_tolerance;
+    const half = 3.141592653589793 * halves - 0.5 * angle(arc_rotation(u, scene.c, scene.s, origin.c, origin.s));
+    for (let pass_1 = 0; pass_1 < MOST_STEPS; pass_1++) {
+        if (pose.time > until_) {
+            return none;
+        }
+        const middle = middle_at(u, half, pose, slot, scene);
+        const distance = length(middle.dx, middle.dy);
+        const limits = bounds_at(u, pose, slot, scene);
+        let limit = limits.speed > 0.0 ? min_real(limits.step, 1.0 / limits.speed) : limits.step;
+        const furthest = distance + limits.speed * limit;
+        const bends = bends_of_square(u, furthest, limits, scene), square = 2.0 * limits.speed * limits.speed;
+        // To h'' the middle arc adds -2 V^2 cos(m) - 4 V' sin(m). |d|^2 adds 2 V^2 to its own, which `down` leaves out.
+        const low = min_real(bends.down + 4.0 * limits.speed_change, bends.size + square);
+        const high = min_real(bends.up + square + 4.0 * limits.speed_change, bends.size + square);
+        const spread = distance + 4.0 * sin(0.5 * middle.arc);
+        let step;
+        if (Math.abs(middle.value) <= tolerance * (spread + tolerance)) {
+            const path = path_of_three_arcs(u, middle, pose, scene);
+            if (path.time < Infinity) {
+                return { phase: slot.phase + pose.width, side: slot.side, path };
+            }
+            step = max_real(Math.abs(middle.slope) / high, DOUBLE_ROOT);
+        } else if (middle.value > 0.0) {
+            step = step_without_zero(middle.value, middle.slope, low);
+            if (distance - 4.0 > limits.speed * limit) {
+                step = max_real(step, (distance - 4.0) / limits.speed);
+                limit = limits.step;
+            }
+        } else {
+            step = step_without_zero(-middle.value, -middle.slope, high);
+        }
+        pose = slot_pose(pose.width + min_real(step, limit), slot, scene);
+    }
+    return none;
+}
+
+/**
+ * The first arrival in a slot, the best of all words.
+ *
+ * @type {(slot: Slot, scene: WindScene) => WindCandidate}
+ */
+export function first_arrival(slot, scene) {
+    const begin = first_within_reach(slot, scene);
+    let best = { phase: slot.phase, side: slot.side, path: NO_PATH };
+    // LSL or RSR that ends against the hold exists at all times and arrives within a turn or so; next to R = 1 others
+    // may take forever.
+    for (const last of [slot.side, 0 - slot.side]) {
+        for (const u of [last, 0 - last]) {
+            best = earlier(best, first_with_straight(u, last, begin, slot, scene, best.path.time));
+        }
+    }
+    for (const u of [1, -1]) {
+        for (const halves of [0, 1]) {
+            best = earlier(best, first_of_three_arcs(u, halves, begin, slot, scene, best.path.time));
+        }
+    }
+    return best;
+}
+
+/**
+ * An arrival as the maneuver flown, with its status.
+ *
+ * @type {(found: WindCandidate, scene: WindScene) => WindEntry}
+ */
+export function arrival_of(found, scene) {
+    const path = found.path, side = found.side;
+    const drop_short_pieces_1 = drop_short_pieces(path.word, path.t1, path.t2, path.t3, rounding(scene.x, scene.y,
+            scene.R), ROUNDING);
+    const word = drop_short_pieces_1[0], t1 = drop_short_pieces_1[1], t2 = drop_short_pieces_1[2], t3 =
+            drop_short_pieces_1[3];
+    const entry = { side, word, t1, t2, t3 };
+    const miss = end_miss(entry, found.phase, scene);
+    return entry_at(entry, found.phase, miss, scene);
+}
+
+/**
+ * The first arrival in the slot that is at a phase at the time 0; nan, with a status, where there is none.
+ *
+ * The side of the problem must be 1 or -1. Its tolerance is not used.
+ *
+ * @type {(problem: WindProblem, phase: number) => WindEntry}
+ */
+export function first_in_slot(problem, phase) {
+    const status = wind_search_status_of(problem);
+    if (status !== Status.OK) {
+        return no_entry(status);
+    }
+    const scene = scene_of(problem), slot = { side: problem.side, phase };
+    const nothing = { side: slot.side, word: 0, t1: 0.0, t2: 0.0, t3: 0.0 };
+    const miss = end_miss(nothing, phase, scene);
+    if (miss <= 3.0 * scene.arc_tolerance) {
+        return entry_at(nothing, phase, miss, scene);
+    }
+    const found = first_arrival(slot, scene);
+    if (found.path.time === Infinity) {
+        return no_entry(code(Status.NOT_CONVERGED));
+    }
+    return arrival_of(found, scene);
 }

@@ -6,13 +6,14 @@ import * as geodesic from "./geodesic.js";
 import * as kernel from "./kernel.js";
 import * as arrays from "./arrays.js";
 import * as shapes from "./shapes.js";
-import { np } from "./numpy.js";
-import { Complex, ElementTree, Tuple, Values, abs, accumulate, add, all, and, any, any_, append_, asdict, bit_and, bit_or, bool, cached, capitalize_, cmath, complex, conjugate_, copy_, csv, dict, div, encode_, enumerate, enumeration, eq, escape, float, floordiv, format, ge, get_, gt, has, heappop, heappush, index_, int, invert, io, isinstance, item, items_, iter, iter_items, join_, json, le, len, letters, list, lower_, lt, map, math, max, min, mod, mul, name_of, ne, neg, next, or, pairwise, partial, plain, pop_, pow, range, removeprefix_, removesuffix_, replace, replace_, repr, reversed, round, round_, rows, set, set_item, set_of, slice, sliced, sorted, str, struct, sub, sum, tolist_, truth, tuple, values_, with_middle, zip } from "./python.js";
+import { Complex, np } from "./numpy.js";
+import { ElementTree, Tuple, Values, abs, accumulate, add, all, and, any, any_, append_, asdict, bit_and, bit_or, bool, cached, capitalize_, cmath, complex, conjugate_, copy_, csv, dict, div, encode_, enumerate, enumeration, eq, escape, float, floordiv, format, ge, get_, gt, has, heappop, heappush, index_, int, invert, io, isinstance, item, items_, iter, iter_items, join_, json, le, len, letters, list, lower_, lt, map, math, max, min, mod, mul, name_of, ne, neg, next, or, pairwise, partial, plain, pop_, pow, range, removeprefix_, removesuffix_, replace, replace_, repr, reversed, round, round_, rows, set, set_item, set_of, slice, sliced, sorted, str, struct, sub, sum, tolist_, truth, tuple, values_, with_middle, zip } from "./python.js";
 import { shapely } from "./shapes.js";
 
-function plan(placed) {
-let _, best, document, entry, first, maneuver, maneuvers, others, start_x, start_y;
-[best, others] = iter(best_and_others(placed.problem));
+function plan(placed, slot = null) {
+let _, best, document, entry, first, maneuver, maneuvers, others, problem, start_x, start_y;
+problem = placed.problem;
+[best, others] = iter(((slot == null) ? best_and_others(problem) : best_and_others_in_slot(problem, slot)));
 const chained1 = [...iter(best), ...iter(others)];
 [first, ..._] = iter(chained1);
 maneuvers = chained1;
@@ -21,24 +22,23 @@ for ([entry, maneuver] of rows(zip([document, ...iter(item(document, "alternativ
 set_item(entry, "track", track(maneuver));
 }
 [[start_x, ..._], [start_y, ..._]] = iter(list(iter("xy")).map((axis) => item(item(document, "track"), axis)));
-return bit_or(document, new Map([["optimal", len(best)], ["other_turn_later_s", _other_turn_later_s(maneuvers)], ["instruction", instruction(first)], ["command", command(placed.problem)], ["python", python(placed.problem)], ["reduced", new Map([["x", start_x], ["y", start_y], ["radius", placed.problem.radius]])]]));
+return bit_or(document, new Map([["optimal", len(best)], ["other_turn_later_s", _other_turn_later_s(maneuvers)], ["instruction", instruction(first)], ["command", command(problem, slot)], ["python", python(problem, slot)], ["reduced", new Map([["x", start_x], ["y", start_y], ["radius", problem.radius]])]]));
 }
 
-function all_candidates(placed) {
-let least_s, maneuvers;
-maneuvers = extremals(placed.problem);
-least_s = min(list(iter(maneuvers)).map((m) => m.duration_s));
-return new Map([["candidates", list(iter(maneuvers)).map((m) => bit_or(maneuver_values(m, placed.frame), new Map([["track", track(m)], ["later_s", sub(m.duration_s, least_s)]])))]]);
-}
-
-function certificate(placed) {
-let _, checked, first, instants, series, switches;
-[first, ..._] = iter(all_fastest(placed.problem));
-checked = certify(first, placed.problem.tolerance_m);
+function certificate(placed, slot = null) {
+let checked, first, instants, series, switches, tolerance_m;
+[first, tolerance_m] = iter([first_maneuver(placed.problem, slot), placed.problem.tolerance_m]);
+checked = ((slot == null) ? certify(first, tolerance_m) : certify_slot(first, slot));
 instants = list(iter(checked.history(STEPS))).flatMap((piece) => list(iter(piece)).map((instant) => instant));
 series = new Map(list(iter(Instant._fields)).map((name) => [name, list(iter(instants)).map((instant) => instant[name])]));
 switches = list(iter(checked.switches)).map((switch_) => switch_.time_s);
 return new Map([["certificate", checked.to_dict()], ["series", bit_or(series, new Map([["switches_s", switches]]))]]);
+}
+
+function first_maneuver(problem, slot = null) {
+let _, first;
+[first, ..._] = iter(((slot == null) ? all_fastest(problem) : arrivals(problem, slot)));
+return first;
 }
 
 function lap(maneuver, laps = 1) {
@@ -95,10 +95,9 @@ throw errors.InvalidArgument("frame", `is missing: a ${str(ending)} file needs p
 return leg_text(_planned(placed, asked), ending, placed.frame, Autopilot.ARDUPILOT);
 }
 
-function fence_check(placed, fence, margin_m) {
-let _, first, found;
-[first, ..._] = iter(all_fastest(placed.problem));
-found = check(fence, first, margin_m);
+function fence_check(placed, fence, margin_m, slot = null) {
+let found;
+found = check(fence, first_maneuver(placed.problem, slot), margin_m);
 return bit_or(found.to_dict(), new Map([["sentence", found.sentence()]]));
 }
 
@@ -1879,8 +1878,28 @@ return errors.OutOfRange(`the scene is too large for double precision: ${format(
 }
 }, ["pose", "orbit", "aircraft", "wind", "tolerance_m"], 'Problem');
 
-function all_fastest(problem) {
-return maneuvers(solve_problem(problem, kernel.synthesis_optima, kernel.wind_search_optima));
+const Slot = struct(class extends Values {
+constructor(phase_deg, at_s = 0.0) {
+super();
+this.phase_deg = phase_deg;
+this.at_s = at_s;
+this.__post_init__();
+}
+__post_init__() {
+const self = this;
+(self["phase_deg"] = number("slot phase_deg", self.phase_deg, "degrees"));
+(self["at_s"] = number("slot at_s", self.at_s, "seconds"));
+}
+}, ["phase_deg", "at_s"], 'Slot');
+
+function slot_pose(slot, problem, time_s) {
+let _, c, east, given, north, phase, r, s, then, x, y;
+[given, r] = iter([problem.in_wind(), problem.aircraft.turn_radius_m]);
+then = replace(slot, { at_s: sub(slot.at_s, time_s) });
+phase = phase_at_start(then, given, problem.time_unit_s);
+[x, y, c, s, _] = iter(kernel.hold_pose(phase, given.side, given.R, given.wx, given.wy));
+[east, north] = iter(problem.orbit.centre_after(time_s));
+return Pose(add(east, mul(r, x)), add(north, mul(r, y)), wrapped(math.degrees(math.atan2(c, s))));
 }
 
 const PlacedProblem = struct(class extends Tuple {
@@ -1905,6 +1924,13 @@ known = solve_problem(problem.with_turn(Turn.EITHER), kernel.synthesis_ranked, k
 best = (truth(problem.has_closed_form) ? all_fastest(problem) : _tied(known, problem));
 others = maneuvers(known);
 return [best, tuple(list(iter(others)).filter((m) => !truth(any(list(iter(best)).map((b) => (eq(m.turn, b.turn) && eq(m.segments, b.segments)))))).map((m) => m))];
+}
+
+function best_and_others_in_slot(problem, slot) {
+let best, both;
+both = list(iter(arrivals(problem.with_turn(Turn.EITHER), slot))).map((m) => replace(m, { orbit: problem.orbit }));
+best = next(list(iter(both)).filter((m) => has(problem.orbit.turn, [Turn.EITHER, m.turn])).map((m) => m));
+return [[best], tuple(list(iter(both)).filter((m) => (m != best)).map((m) => m))];
 }
 
 function answer(best, others, frame = null) {
@@ -1944,7 +1970,7 @@ now = `${str(capitalize_(item(ACTIONS, first.letter)))} now, then ${str(next_act
 return (truth(later) ? `${str(now)} ${str(capitalize_(hold))} from ${format(maneuver.duration_s, `.${String(decimals)}f`)} s.` : now);
 }
 
-function command(problem) {
+function command(problem, slot = null) {
 let limit, orbit, pose, velocity, wind, words;
 [pose, orbit, wind] = iter([problem.pose, problem.orbit, problem.wind]);
 limit = _given_limit(problem.aircraft);
@@ -1956,21 +1982,19 @@ words = add(words, (ne(wind, CALM) ? [_option("wind", wind.speed_m_s, wind.from_
 velocity = [orbit.velocity_east_m_s, orbit.velocity_north_m_s];
 words = add(words, (truth(orbit.moves) ? [_option("orbit_velocity_m_s", ...iter(velocity))] : []));
 words = add(words, (truth(problem.tolerance_m) ? [_option("tolerance_m", problem.tolerance_m)] : []));
+words = add(words, (truth(slot) ? [_option("slot phase_deg", slot.phase_deg)] : []));
+words = add(words, ((truth(slot) && truth(slot.at_s)) ? [_option("slot at_s", slot.at_s)] : []));
 return join_(" ", words);
 }
 
-function python(problem) {
-let tolerance;
+function python(problem, slot = null) {
+let names, planned, tolerance;
 tolerance = (truth(problem.tolerance_m) ? `, tolerance_m=${repr(problem.tolerance_m)}` : "");
-return join_("\n", [...iter(_scene_lines(problem, "plan_all")), `m, *as_fast = plan_all(pose, orbit, uav${str(_wind(problem))}${str(tolerance)})`, "print(m.word, m.turn.value, m.duration_s)"]);
+[names, planned] = iter(["plan_all", `m, *as_fast = plan_all(pose, orbit, uav${str(_wind(problem))}${str(tolerance)})`]);
+if (truth(slot)) {
+[names, planned] = iter(["Slot, plan", `m = plan(pose, orbit, uav${str(_wind(problem))}, slot=${repr(slot)})`]);
 }
-
-function extremals(problem) {
-return maneuvers(solve_problem(problem, kernel.synthesis_ranked, kernel.wind_search_ranked));
-}
-
-function maneuver_values(maneuver, frame = null) {
-return maneuver_maneuver_values(maneuver, ((frame != null) ? partial(_placed_values, frame) : pose_values));
+return join_("\n", [...iter(_scene_lines(problem, names)), planned, "print(m.word, m.turn.value, m.duration_s)"]);
 }
 
 function certify(maneuver, tolerance_m = 0.0) {
@@ -1990,6 +2014,20 @@ start = trajectory.first.start;
 return Certificate(maneuver, lam, psi, _choice(trajectory), tuple(switches_of(trajectory)), tuple(residuals(formulation, trajectory, accuracy, others)), others, trajectory.pieces, mul(accuracy.tie, problem.time_unit_s), and(problem.has_closed_form, () => eq(tolerance_m, 0.0)));
 }
 
+function certify_slot(maneuver, slot) {
+let bounds, first, pieces, problem, start, trajectory, unit_s;
+arrays.unchecked("maneuver", maneuver, Maneuver);
+arrays.unchecked("slot", slot, Slot);
+problem = problem_of(maneuver);
+unit_s = problem.time_unit_s;
+trajectory = _trajectory(maneuver, problem);
+bounds = list(iter(directions(problem.orbit.turn))).map((turn) => _no_arrival(trajectory, problem.with_turn(turn), slot));
+first = min(bounds, { key: ((bound) => bound.time) });
+pieces = trajectory.pieces;
+start = (truth(pieces) ? item(pieces, 0).start : null);
+return SlotCertificate(maneuver, (truth(start) ? trajectory.lam : null), (truth(start) ? [start.psi1, start.psi2] : null), slot_certificate__choice(trajectory), tuple(switches_of(trajectory)), tuple(_slot_residuals(trajectory, _slot_at_end(trajectory, slot), first)), _other_direction(maneuver, problem, slot), pieces, mul(resolution(trajectory.duration), unit_s), false, slot, mul(first.time, unit_s));
+}
+
 const Instant = struct(class extends Tuple {
 constructor(time_s, u, phi, psi1, psi2) {
 super();
@@ -2001,6 +2039,20 @@ this.psi2 = psi2;
 
 }
 }, ["time_s", "u", "phi", "psi1", "psi2"], 'Instant');
+
+function all_fastest(problem) {
+return maneuvers(solve_problem(problem, kernel.synthesis_optima, kernel.wind_search_optima));
+}
+
+function arrivals(problem, slot) {
+let found;
+arrays.unchecked("slot", slot, Slot);
+if (ne(problem.tolerance_m, 0.0)) {
+throw errors.InvalidArgument("tolerance_m", "must be 0 with a slot: its entry ends in the slot");
+}
+found = sorted(list(iter(directions(problem.orbit.turn))).map((turn) => _arrival(problem, turn, slot)), { key: ((solved) => solved.time) });
+return maneuvers(list(iter(found)).map((one) => _with_orbit(one, problem.orbit)));
+}
 
 function laws(problem) {
 let aircraft, orbit, period_s, wind;
@@ -2147,6 +2199,10 @@ problem = placed.problem;
 return clear_entry(fence, problem.pose, problem.orbit, problem.aircraft, problem.wind, margin_m);
 }
 
+function maneuver_values(maneuver, frame = null) {
+return maneuver_maneuver_values(maneuver, ((frame != null) ? partial(_placed_values, frame) : pose_values));
+}
+
 function _checked_corner(where, corner) {
 let east, north;
 if (ne(len(corner), 2)) {
@@ -2286,8 +2342,16 @@ this.tolerance = tolerance;
 }
 }, ["x", "y", "c", "s", "R", "side", "wx", "wy", "tolerance"], 'WindProblem');
 
-function maneuvers(found) {
-return tuple(list(iter(found)).map((candidate) => candidate.maneuver));
+function phase_at_start(slot, problem, time_unit_s) {
+let R, period, phase, side, time, wx, wy;
+[side, R, wx, wy] = iter([problem.side, problem.R, problem.wx, problem.wy]);
+phase = kernel.phase_of(...iter(heading_vector(slot.phase_deg)), side, wx, wy);
+period = kernel.time_held(add(phase, TWO_PI), TWO_PI, R, wx, wy);
+time = div(slot.at_s, time_unit_s);
+if ((!truth(math.isfinite(time)) || gt(abs(time), mul(MOST_TURNS, period)))) {
+throw errors.OutOfRange(`the slot is given at ${format(slot.at_s, `g`)} s: more than ${format(MOST_TURNS, `g`)} turns lie between the start and then`);
+}
+return sub(phase, kernel.width_held(phase, mod(math.fmod(time, period), period), R, wx, wy));
 }
 
 function solve_problem(problem, in_still_air, in_wind) {
@@ -2312,12 +2376,20 @@ least = min(list(iter(allowed)).map((candidate) => candidate.time));
 return maneuvers(list(iter(allowed)).filter((candidate) => truth(kernel.is_tie_in_wind(candidate.time, least, R))).map((candidate) => candidate));
 }
 
+function maneuvers(found) {
+return tuple(list(iter(found)).map((candidate) => candidate.maneuver));
+}
+
 function _given_limit(aircraft) {
 return next(list(iter(TURN_LIMITS)).filter((name) => (aircraft[name] != null)).map((name) => name));
 }
 
 function _option(argument, ...numbers) {
 return join_(" ", [item(OPTIONS, argument), ...iter(list(iter(numbers)).map((number) => removesuffix_(repr(number), ".0")))]);
+}
+
+function _wind(problem) {
+return (ne(problem.wind, CALM) ? `, ${repr(problem.wind)}` : "");
 }
 
 function _scene_lines(problem, names) {
@@ -2328,24 +2400,6 @@ given = list(iter([limit, "climb_rate_m_s", "descent_rate_m_s"])).filter((name) 
 values = join_(", ", list(iter(["airspeed_m_s", ...iter(given)])).map((name) => `${str(name)}=${repr(uav[name])}`));
 imported = join_(", ", ["Aircraft", "Orbit", "Pose", ...iter((truth(_wind(problem)) ? ["Wind"] : [])), names]);
 return [`from loiter import ${str(imported)}`, "", `pose = ${repr(problem.pose)}`, `orbit = ${str(_orbit(problem.orbit))}`, `uav = Aircraft(${str(values)})`];
-}
-
-function _wind(problem) {
-return (ne(problem.wind, CALM) ? `, ${repr(problem.wind)}` : "");
-}
-
-function maneuver_maneuver_values(maneuver, pose = pose_values) {
-return new Map([["duration_s", maneuver.duration_s], ["length_m", maneuver.length_m], ["word", maneuver.word], ["turn", maneuver.turn], ["join", pose(maneuver.join)], ["wind", new Map([["speed_m_s", maneuver.wind.speed_m_s], ["from_deg", maneuver.wind.from_deg]])], ["join_over_ground", _join_over_ground(maneuver)], ["hold", new Map([["least_bank_deg", maneuver.hold.least_bank_deg], ["largest_bank_deg", maneuver.hold.largest_bank_deg], ["largest_bank_azimuth_deg", maneuver.hold.largest_bank_azimuth_deg]])], ["miss_m", maneuver.miss_m], ["segments", list(iter(maneuver.segments)).map((segment) => maneuver__segment(segment, pose))], ["aircraft", new Map([["airspeed_m_s", maneuver.aircraft.airspeed_m_s], ["turn_radius_m", maneuver.aircraft.turn_radius_m]])]]);
-}
-
-function _placed_values(frame, pose) {
-let place;
-place = frame.place(pose);
-return bit_or(pose_values(pose), new Map([["latitude_deg", round(place.latitude_deg, places_DECIMALS)], ["longitude_deg", round(place.longitude_deg, places_DECIMALS)], ["true_heading_deg", place.heading_deg]]));
-}
-
-function pose_values(pose) {
-return new Map([["east_m", pose.east_m], ["north_m", pose.north_m], ["heading_deg", pose.heading_deg]]);
 }
 
 function problem_of(maneuver, tolerance_m = 0.0) {
@@ -2562,18 +2616,6 @@ return BASIS_VIOLATED;
 }
 return (truth(self.proved_optimal) ? BASIS_THEOREM : BASIS_NECESSARY);
 }
-get claim() {
-const self = this;
-return (truth(self.proved_optimal) ? BY_THE_THEOREM : NOT_PROVED);
-}
-get source() {
-const self = this;
-return (truth(problem_of(self.maneuver).still) ? "of the paper, listed in docs/paper.md" : "in docs/wind.md");
-}
-get comparison() {
-const self = this;
-return _comparison(self);
-}
 get valid() {
 const self = this;
 return !truth(self.failed);
@@ -2581,10 +2623,6 @@ return !truth(self.failed);
 get failed() {
 const self = this;
 return tuple(list(iter(self.residuals)).filter((residual) => truth(residual.failed)).map((residual) => residual));
-}
-get ties() {
-const self = this;
-return tuple(list(iter(self.others)).filter((other) => le(abs(other.later_s), self.tie_s)).map((other) => other));
 }
 get runner_up() {
 const self = this;
@@ -2610,7 +2648,7 @@ began = add(began, piece.t);
 }
 to_dict() {
 const self = this;
-return new Map([["valid", self.valid], ["proved_optimal", self.proved_optimal], ["basis", self.basis], ["word", self.maneuver.word], ["turn", self.maneuver.turn], ["duration_s", self.maneuver.duration_s], ["lambda", self.lam], ["psi", self.psi], ["choice", self.choice], ["switches", list(iter(self.switches)).map((switch_) => asdict(switch_))], ["residuals", list(iter(self.residuals)).map((residual) => _plain(residual))], ["candidates", list(iter(self.others)).map((other) => bit_or(asdict(other), new Map([["turn", other.turn]])))], ["runner_up", ((self.runner_up == null) ? null : self.runner_up.word)], ["margin_s", self.margin_s]]);
+return certificate_values(self);
 }
 }, ["maneuver", "lam", "psi", "choice", "switches", "residuals", "others", "pieces", "tie_s", "complete"], 'Certificate');
 
@@ -2653,7 +2691,149 @@ yield Residual(name, equation, off, bound);
 yield* iter(_check(formulation.further, trajectory, accuracy));
 yield* iter(gradient_residuals(formulation.gradient, trajectory, accuracy));
 }
-yield conditions__comparison(trajectory, accuracy, others);
+yield _comparison(trajectory, accuracy, others);
+}
+
+function _trajectory(maneuver, problem) {
+let controls, durations, flown, start;
+start = slot_certificate__start(problem, sign_of(held_turn(maneuver)));
+[controls, durations] = iter([list(iter(letters(arrays.word_of(maneuver)))).map((letter) => item(CONTROLS, letter)), durations_of(maneuver)]);
+if (!truth(controls)) {
+return Trajectory(maneuver, problem, start, 1.0, []);
+}
+flown = list(iter(_adjoints(start, controls, durations))).map((adjoint) => Trajectory(maneuver, problem, start, adjoint.lam, tuple(flown_pieces(start, controls, durations, adjoint))));
+return min(flown, { key: ((one) => max(one.violations.sign, one.violations.hamiltonian)) });
+}
+
+function directions(turn) {
+return ((turn == Turn.EITHER) ? [Turn.CW, Turn.CCW] : [turn]);
+}
+
+function _no_arrival(trajectory, problem, slot) {
+let circle;
+circle = _held_circle(trajectory, problem, slot);
+return no_arrival_before(trajectory.start.q, trajectory.start.e, circle, trajectory.duration);
+}
+
+const SlotCertificate = struct(class extends Values {
+constructor(maneuver, lam, psi, choice, switches, residuals, others, pieces, tie_s, complete, slot = HERE, clear_s = 0.0) {
+super();
+this.maneuver = maneuver;
+this.lam = lam;
+this.psi = psi;
+this.choice = choice;
+this.switches = switches;
+this.residuals = residuals;
+this.others = others;
+this.pieces = pieces;
+this.tie_s = tie_s;
+this.complete = complete;
+this.slot = slot;
+this.clear_s = clear_s;
+
+}
+get basis() {
+const self = this;
+return (truth(self.valid) ? BASIS_SLOT : BASIS_VIOLATED);
+}
+to_dict() {
+const self = this;
+return new Map([...iter_items(certificate_values(self)), ["slot", new Map([["phase_deg", self.slot.phase_deg], ["at_s", self.slot.at_s]])], ["no_arrival_before_s", self.clear_s]]);
+}
+get proved_optimal() {
+const self = this;
+return and(self.complete, () => self.valid);
+}
+get valid() {
+const self = this;
+return !truth(self.failed);
+}
+get failed() {
+const self = this;
+return tuple(list(iter(self.residuals)).filter((residual) => truth(residual.failed)).map((residual) => residual));
+}
+get runner_up() {
+const self = this;
+if (truth(any(list(iter(self.others)).map((other) => lt(other.later_s, neg(self.tie_s)))))) {
+return null;
+}
+return next(list(iter(self.others)).filter((other) => gt(other.later_s, self.tie_s)).map((other) => other), null);
+}
+get margin_s() {
+const self = this;
+return ((self.runner_up == null) ? null : self.runner_up.later_s);
+}
+*history(steps = 100) {
+let began, piece, times, unit_s;
+const self = this;
+unit_s = problem_of(self.maneuver).time_unit_s;
+began = 0.0;
+for (piece of iter(self.pieces)) {
+times = list(iter(range(add(steps, 1)))).map((i) => div(mul(piece.t, i), steps));
+yield list(iter(times)).map((s) => _instant(piece, began, s, unit_s));
+began = add(began, piece.t);
+}
+}
+}, ["maneuver", "lam", "psi", "choice", "switches", "residuals", "others", "pieces", "tie_s", "complete", "slot", "clear_s"], 'SlotCertificate');
+
+function slot_certificate__choice(trajectory) {
+if (!truth(trajectory.pieces)) {
+return STARTS_IN_SLOT;
+}
+if (truth(any(list(iter(trajectory.pieces)).map((piece) => eq(piece.u, 0))))) {
+return LINE;
+}
+return (eq(len(trajectory.pieces), 3) ? BISECTOR : ANY);
+}
+
+function* _slot_residuals(trajectory, slot, first) {
+let accuracy, behind, bounds, e, end, last, later, note, off, q;
+[accuracy, [q, e]] = iter([accuracy_in_wind(trajectory), trajectory.end]);
+end = add(accuracy.end, mul(DOUBLE_ROOT, kernel.rounding(abs(trajectory.start.q), trajectory.start.R, trajectory.duration)));
+yield Residual("target", "q(T) is the place of the slot at T", abs(sub(q, slot.place)), end);
+yield Residual("course", "e(T) is its heading then", abs(sub(e, slot.heading)), end);
+yield Residual("join", "the last pose over the ground is where the circle is then", ...iter(conditions_join(trajectory, accuracy)));
+yield Residual("turn", "the circle is held as asked for", ...iter(turn(trajectory, accuracy)));
+if (truth(trajectory.pieces)) {
+yield* iter(motion_residuals(IN_WIND.motion, trajectory, accuracy));
+[off, bounds] = iter([trajectory.violations, accuracy.maximum_principle]);
+yield Residual("norm", "|p| = 1", off.norm, bounds.norm);
+yield Residual("sign", "u = sign f, u = 0 only where f = 0 (4)", off.sign, bounds.sign);
+yield Residual("hamiltonian", "|f| + p.e = lambda (4)", off.hamiltonian, bounds.hamiltonian);
+last = trajectory.last;
+behind = mul(last.end.phi, sub(last.u, slot.control));
+yield Residual("slot", "f (u - h k) >= 0 at T (5)", max(0.0, neg(behind)), mul(2.0, bounds.sign));
+}
+[later, note] = iter([max(sub(trajectory.duration, first.time), 0.0), _passes(trajectory.problem, first)]);
+yield Residual("first", "no path arrives before T", later, resolution(trajectory.duration), note);
+}
+
+function _slot_at_end(trajectory, slot) {
+let held;
+held = trajectory.problem.with_turn(held_turn(trajectory.maneuver));
+return _held_circle(trajectory, held, slot).after(trajectory.duration).state();
+}
+
+function _other_direction(maneuver, problem, slot) {
+return tuple(list(iter(arrivals(problem, slot))).filter((other) => ne(other.turn, maneuver.turn)).map((other) => Candidate(other.word, other.turn, other.duration_s, sub(other.duration_s, maneuver.duration_s))));
+}
+
+function resolution(until) {
+return float(pow(mul(mul(24.0, REACHED), add(1.0, until)), div(1.0, 3.0)));
+}
+
+function _arrival(problem, turn, slot) {
+let entry, given;
+given = problem.with_turn(turn).in_wind();
+entry = kernel.first_in_slot(given, phase_at_start(slot, given, problem.time_unit_s));
+if (ne(entry.status, kernel.Status.OK)) {
+throw _not_converged(problem);
+}
+return Solved(maneuver(problem, kernel.entry_of(entry), entry.miss), kernel.time_of(entry));
+}
+
+function _with_orbit(candidate, orbit) {
+return replace(candidate, { maneuver: replace(candidate.maneuver, { orbit: orbit }) });
 }
 
 const Follower = struct(class extends Values {
@@ -3052,6 +3232,10 @@ function legs__segment(name, letter, start_s, duration_s) {
 return new Map([["name", name], ["letter", letter], ["start_s", start_s], ["duration_s", duration_s]]);
 }
 
+function pose_values(pose) {
+return new Map([["east_m", pose.east_m], ["north_m", pose.north_m], ["heading_deg", pose.heading_deg]]);
+}
+
 function legs__track(plan) {
 let after, east, end, entry, heading, last, north, states, time_s, x, y;
 [entry, end] = iter([track(plan.entry), plan.end]);
@@ -3132,6 +3316,16 @@ return replace(found, { searched: true, least_s: least_s });
 }
 later_s = sub(best.duration_s, item(known, 0).duration_s);
 return replace(found, { maneuver: best, check: fence.check(best, margin_m), later_s: later_s, searched: true, least_s: least_s });
+}
+
+function maneuver_maneuver_values(maneuver, pose = pose_values) {
+return new Map([["duration_s", maneuver.duration_s], ["length_m", maneuver.length_m], ["word", maneuver.word], ["turn", maneuver.turn], ["join", pose(maneuver.join)], ["wind", new Map([["speed_m_s", maneuver.wind.speed_m_s], ["from_deg", maneuver.wind.from_deg]])], ["join_over_ground", _join_over_ground(maneuver)], ["hold", new Map([["least_bank_deg", maneuver.hold.least_bank_deg], ["largest_bank_deg", maneuver.hold.largest_bank_deg], ["largest_bank_azimuth_deg", maneuver.hold.largest_bank_azimuth_deg]])], ["miss_m", maneuver.miss_m], ["segments", list(iter(maneuver.segments)).map((segment) => maneuver__segment(segment, pose))], ["aircraft", new Map([["airspeed_m_s", maneuver.aircraft.airspeed_m_s], ["turn_radius_m", maneuver.aircraft.turn_radius_m]])]]);
+}
+
+function _placed_values(frame, pose) {
+let place;
+place = frame.place(pose);
+return bit_or(pose_values(pose), new Map([["latitude_deg", round(place.latitude_deg, places_DECIMALS)], ["longitude_deg", round(place.longitude_deg, places_DECIMALS)], ["true_heading_deg", place.heading_deg]]));
 }
 
 const LegPlan = struct(class extends Values {
@@ -3421,10 +3615,6 @@ let pose, wind;
 return errors.NotConverged(`${str(item(_MESSAGES, kernel.Status.NOT_CONVERGED))}: pose ${format(pose.east_m, `g`)} ${format(pose.north_m, `g`)} ${format(pose.heading_deg, `g`)}, wind ${format(wind.speed_m_s, `.4g`)} m/s from ${format(wind.from_deg, `g`)}; try a pose moved by a millimetre`);
 }
 
-function _with_orbit(candidate, orbit) {
-return replace(candidate, { maneuver: replace(candidate.maneuver, { orbit: orbit }) });
-}
-
 function _orbit(orbit) {
 let text;
 text = `east_m=${repr(orbit.east_m)}, north_m=${repr(orbit.north_m)}, radius_m=${repr(orbit.radius_m)}, turn="${str(orbit.turn)}"`;
@@ -3434,15 +3624,8 @@ text = add(text, `, velocity_east_m_s=${repr(orbit.velocity_east_m_s)}, velocity
 return `Orbit(${str(text)})`;
 }
 
-function _join_over_ground(maneuver) {
-let centre, speed, track_deg;
-[track_deg, speed] = iter(maneuver.over_ground(maneuver.join));
-centre = maneuver.orbit_at_join;
-return new Map([["track_deg", track_deg], ["ground_speed_m_s", speed], ["centre_east_m", centre.east_m], ["centre_north_m", centre.north_m]]);
-}
-
-function maneuver__segment(segment, pose) {
-return new Map([["letter", segment.letter], ["start_s", segment.start_s], ["duration_s", segment.duration_s], ["length_m", segment.length_m], ["curvature_per_m", segment.curvature_per_m], ["start", pose(segment.start)], ["end", pose(segment.end)]]);
+function extremals(problem) {
+return maneuvers(solve_problem(problem, kernel.synthesis_ranked, kernel.wind_search_ranked));
 }
 
 const Candidate = struct(class extends Values {
@@ -3621,32 +3804,16 @@ join = add(add(end, mul(_heading_rounding(maneuver), add(1.0, T))), _ground_roun
 return Accuracy(end, length, angle, beside, join, mul([_of_difference(1.0, length)], 3), MaximumPrinciple(ROUNDING, choice, choice, mul(2.0, choice), choice, choice), choice, add(mul(WIND_TIE_TOLERANCE, add(add(1.0, start.R), T)), mul(2.0, _time_of_rounding(trajectory, length))));
 }
 
-function _comparison(certificate) {
-let count, runner_up, text, this_, ties;
-[count, runner_up] = iter([len(certificate.others), certificate.runner_up]);
-ties = join_(", ", list(iter(certificate.ties)).map((tie) => `${str(tie.word)} ${str(tie.turn)}`));
-text = `Compared with ${count} other ${str((eq(count, 1) ? "extremal" : "extremals"))}`;
-if ((truth(certificate.proved_optimal) && truth(certificate.pieces))) {
-this_ = (truth(count) ? `of the ${str(add(count, 1))} extremals with these words none is faster` : "this is the only extremal with one of them");
-text = `Theorem 1: in each direction the optimum is one of nine words; ${str(this_)}`;
-}
-text = add(text, (truth(ties) ? `; as fast: ${str(ties)}` : ""));
-if ((runner_up == null)) {
-return add(text, ".");
-}
-return `${str(text)}; the runner-up ${str(runner_up.word)} ${str(runner_up.turn)} takes ${format(runner_up.later_s, `.3g`)} s more.`;
-}
-
 function _instant(piece, began, s, unit_s) {
 let now;
 now = piece.at(s);
 return Instant(mul(add(began, s), unit_s), piece.u, now.phi, now.psi1, now.psi2);
 }
 
-function _plain(residual) {
-let value;
-value = (((residual.value != null) && truth(math.isfinite(residual.value))) ? residual.value : null);
-return bit_or(asdict(residual), new Map([["value", value], ["verdict", residual.verdict]]));
+function certificate_values(certificate) {
+let maneuver, runner_up;
+[maneuver, runner_up] = iter([certificate.maneuver, certificate.runner_up]);
+return new Map([["valid", certificate.valid], ["proved_optimal", certificate.proved_optimal], ["basis", certificate.basis], ["word", maneuver.word], ["turn", maneuver.turn], ["duration_s", maneuver.duration_s], ["lambda", certificate.lam], ["psi", certificate.psi], ["choice", certificate.choice], ["switches", list(iter(certificate.switches)).map((switch_) => asdict(switch_))], ["residuals", list(iter(certificate.residuals)).map((residual) => _plain(residual))], ["candidates", list(iter(certificate.others)).map((other) => bit_or(asdict(other), new Map([["turn", other.turn]])))], ["runner_up", ((runner_up == null) ? null : runner_up.word)], ["margin_s", certificate.margin_s]]);
 }
 
 const Switch = struct(class extends Values {
@@ -3732,7 +3899,7 @@ off = abs(sub(add(1.0, by_motion), abs(times.by_heading(slopes))));
 yield Residual("bellman", equations.bellman, off, mul(times.motion_size, gradient.bound));
 }
 
-function conditions__comparison(trajectory, accuracy, others) {
+function _comparison(trajectory, accuracy, others) {
 let note, other, sooner;
 [sooner, note] = iter([0.0, ""]);
 for (other of iter(others)) {
@@ -3742,6 +3909,68 @@ note = (gt(sooner, accuracy.tie) ? `${str(other.word)} ${str(other.turn)} is fas
 }
 }
 return Residual("fastest", "T is the least of all candidates", sooner, accuracy.tie, note);
+}
+
+function slot_certificate__start(problem, side) {
+let R, _, c, s, wx, wy, x, y;
+[x, y, c, s, R, _, wx, wy, _] = iter(problem.in_wind());
+return RelativeStart(complex(x, y), complex(c, s), complex(wx, wy), R, side);
+}
+
+function* _adjoints(start, controls, durations) {
+let middle, piece, pieces;
+pieces = list(flown_pieces(start, controls, durations, InitialAdjoint(add(1.0, new Complex(0.0, 0.0)), 1.0, 0.0)));
+for (piece of iter(pieces)) {
+if (eq(piece.u, 0)) {
+yield vanishing_at(start, pieces, piece, piece.e, 1.0);
+}
+}
+if ((eq(len(pieces), 3) && truth(item(pieces, 1).u))) {
+middle = item(pieces, 1);
+yield vanishing_at(start, pieces, middle, mul(neg(middle.e), cmath.exp(mul(mul(new Complex(0.0, 0.5), middle.u), middle.t))), neg(math.cos(mul(0.5, middle.t))));
+}
+if (lt(sum(list(iter(pieces)).map((piece) => gt(piece.t, SHORT))), 3)) {
+yield vanishing_at(start, pieces, item(pieces, -1), item(pieces, -1).e, 1.0);
+}
+}
+
+function _held_circle(trajectory, problem, slot) {
+let at, start, way;
+start = trajectory.start;
+way = neg(float(sign_of(problem.orbit.turn)));
+at = HeldCircle(math.radians(sub(90.0, slot.phase_deg)), way, start.R, start.w);
+return at.after(div(neg(slot.at_s), problem.time_unit_s));
+}
+
+function no_arrival_before(start, heading, circle, until) {
+let begin, end, ends, gap, last, later, limit, passed, reached, stopped;
+[reached, later] = iter([mul(REACHED, add(1.0, until)), resolution(until)]);
+[begin, last] = iter([0.0, circle.width(until)]);
+passed = [];
+limit = circle.width(max(sub(until, mul(0.9, later)), 0.0));
+while (truth(true)) {
+stopped = _first_unclear(start, heading, circle, np.linspace(begin, last, BEGIN), mul(FINEST, add(1.0, until)));
+if (((stopped == null) || le(sub(until, stopped.time), later))) {
+return LowerBound(((stopped == null) ? until : stopped.time), tuple(passed));
+}
+[begin, end] = iter([stopped.width, _end_of_pass(start, heading, circle, stopped.width, limit)]);
+gap = _least_gap(start, heading, circle, begin, end);
+if (le(gap, reached)) {
+return LowerBound(stopped.time, tuple(passed));
+}
+ends = float(item(circle.time(np.array([end])), 0));
+append_(passed, NearPass(stopped.time, ends, gap));
+if (ge(end, limit)) {
+return LowerBound(ends, tuple(passed));
+}
+begin = end;
+}
+}
+
+function _passes(problem, first) {
+let r, unit_s;
+[unit_s, r] = iter([problem.time_unit_s, problem.aircraft.turn_radius_m]);
+return join_("; ", list(iter(first.passed)).map((one) => `by samples from ${format(mul(one.begin, unit_s), `.6g`)} to ${format(mul(one.end, unit_s), `.6g`)} s, ${format(mul(one.gap, r), `.2g`)} m from reach`));
 }
 
 function is_plausible(state) {
@@ -3780,7 +4009,7 @@ problem = Problem(pose, orbit, aircraft, ((wind == null) ? CALM : wind), toleran
 if ((slot == null)) {
 return fastest(problem);
 }
-[best, ..._] = iter(arrays.refuse(problem, slot));
+[best, ..._] = iter(arrivals(problem, slot));
 return best;
 }
 
@@ -3961,10 +4190,6 @@ throw errors.InvalidArgument("exit_to", `is ${format(distance, `.4g`)} m from th
 return [east, north];
 }
 
-function directions(turn) {
-return ((turn == Turn.EITHER) ? [Turn.CW, Turn.CCW] : [turn]);
-}
-
 function leg__planned(leg, problem, climb_s) {
 let _, east, entry, exit_, found, hold, is_late, miss, north, orbit, out, point, r, scene, side, speed_m_s, straight_m, unit_s;
 [orbit, r, unit_s] = iter([problem.orbit, problem.aircraft.turn_radius_m, problem.time_unit_s]);
@@ -4050,8 +4275,8 @@ if (eq(autopilot, Autopilot.PX4)) {
 throw errors.InvalidArgument("turns", "are in no mission of PX4: give a time or an altitude");
 }
 turns = math.ceil(leg.turns);
-if ((gt(turns, MOST_TURNS) || gt(radius_m, LARGEST_TURNS_RADIUS_M))) {
-throw errors.InvalidArgument("turns", `are stored by ArduPlane up to ${format(MOST_TURNS, `g`)}, with a radius of up to ${format(LARGEST_TURNS_RADIUS_M, `g`)} m: ${format(turns, `g`)} with ${format(radius_m, `g`)} m are not`);
+if ((gt(turns, legs_MOST_TURNS) || gt(radius_m, LARGEST_TURNS_RADIUS_M))) {
+throw errors.InvalidArgument("turns", `are stored by ArduPlane up to ${format(legs_MOST_TURNS, `g`)}, with a radius of up to ${format(LARGEST_TURNS_RADIUS_M, `g`)} m: ${format(turns, `g`)} with ${format(radius_m, `g`)} m are not`);
 }
 return [MavCommand.NAV_LOITER_TURNS, [float(turns), 0.0, 0.0, FROM_EXIT]];
 }
@@ -4213,6 +4438,17 @@ miss_m = abs(sub(problem.orbit.distance_m(here), problem.orbit.radius_m));
 return Maneuver(problem.pose, problem.orbit, problem.aircraft, turn, tuple(segments), miss_m, problem.wind);
 }
 }, []);
+
+function _join_over_ground(maneuver) {
+let centre, speed, track_deg;
+[track_deg, speed] = iter(maneuver.over_ground(maneuver.join));
+centre = maneuver.orbit_at_join;
+return new Map([["track_deg", track_deg], ["ground_speed_m_s", speed], ["centre_east_m", centre.east_m], ["centre_north_m", centre.north_m]]);
+}
+
+function maneuver__segment(segment, pose) {
+return new Map([["letter", segment.letter], ["start_s", segment.start_s], ["duration_s", segment.duration_s], ["length_m", segment.length_m], ["curvature_per_m", segment.curvature_per_m], ["start", pose(segment.start)], ["end", pose(segment.end)]]);
+}
 
 const Track = struct(class extends Tuple {
 constructor(time_s, east_m, north_m, altitude_m) {
@@ -4605,7 +4841,7 @@ for (piece of iter(pieces)) {
 if (eq(piece.u, 0)) {
 yield vanishing_at(start, pieces, piece, piece.e, 1.0);
 } else {
-if (((before != null) && (ne(before.u, 0) || le(before.t, SHORT)))) {
+if (((before != null) && (ne(before.u, 0) || le(before.t, adjoints_SHORT)))) {
 yield* iter(_transversal(start, pieces, piece));
 }
 }
@@ -4618,7 +4854,7 @@ p = mul(neg(middle.e), cmath.exp(mul(mul(new Complex(0.0, 0.5), middle.u), middl
 yield vanishing_at(start, pieces, middle, p, neg(math.cos(mul(0.5, middle.t))));
 }
 }
-if (le(sum(list(iter(pieces)).map((piece) => gt(piece.t, SHORT))), 1)) {
+if (le(sum(list(iter(pieces)).map((piece) => gt(piece.t, adjoints_SHORT))), 1)) {
 yield* iter(_of_single_arc(start, pieces));
 }
 }
@@ -4768,6 +5004,12 @@ steep = add(trajectory.lam, inner(first.p, first.w));
 return max(length, min(div(length, max(steep, length)), math.sqrt(length)));
 }
 
+function _plain(residual) {
+let value;
+value = (((residual.value != null) && truth(math.isfinite(residual.value))) ? residual.value : null);
+return bit_or(asdict(residual), new Map([["value", value], ["verdict", residual.verdict]]));
+}
+
 function least_times(trajectory) {
 return (truth(trajectory.problem.has_closed_form) ? least_times__in_still_air(trajectory) : least_times__in_wind(trajectory));
 }
@@ -4824,6 +5066,139 @@ yield Residual("gradient", equations.gradient, off, add(mul(abs(c), bound), accu
 least = min(list(iter(sliced(slopes, mul(2, times.axes), null, null))).map((slope) => slope.value));
 yield Residual("bellman", equations.bellman, abs(add(1.0, least)), bound, AT_CORNER);
 }
+
+const InitialAdjoint = struct(class extends Tuple {
+constructor(p, lam, phi) {
+super();
+this.p = p;
+this.lam = lam;
+this.phi = phi;
+
+}
+}, ["p", "lam", "phi"], 'InitialAdjoint');
+
+function vanishing_at(start, pieces, piece, p, lam) {
+let elapsed;
+elapsed = sum(list(iter(sliced(pieces, null, index_(pieces, piece), null))).map((before) => before.t));
+return InitialAdjoint(p, lam, inner(p, mul(new Complex(0.0, 1.0), sub(sub(piece.q, start.q), mul(start.w, elapsed)))));
+}
+
+const HeldCircle = struct(class extends Values {
+constructor(azimuth, way, R, w) {
+super();
+this.azimuth = azimuth;
+this.way = way;
+this.R = R;
+this.w = w;
+
+}
+get times() { return cached(this, "times", () => {
+let begins, widths;
+const self = this;
+widths = np.full(PIECES, div(math.tau, PIECES));
+begins = add(self.azimuth, mul(mul(self.way, widths), np.arange(PIECES)));
+return np.concatenate([[0.0], np.cumsum(hold_time(begins, widths, self.way, self.R, self.w))]);
+}); }
+time(width) {
+let begin, found, piece, turns, within;
+const self = this;
+turns = np.floor(div(width, math.tau));
+piece = np.floor(np.minimum(mul(sub(width, mul(math.tau, turns)), div(PIECES, math.tau)), sub(PIECES, 1.0))).astype(int);
+begin = add(mul(math.tau, turns), mul(piece, div(math.tau, PIECES)));
+within = hold_time(add(self.azimuth, mul(self.way, begin)), sub(width, begin), self.way, self.R, self.w);
+found = add(add(mul(turns, item(self.times, -1)), item(self.times, piece)), within);
+return found;
+}
+width(time) {
+let _, high, left, low, middle, period, piece, turns;
+const self = this;
+period = float(item(self.times, -1));
+turns = math.floor(div(time, period));
+left = sub(time, mul(turns, period));
+piece = min(sub(np.flatnonzero(le(self.times, left)).size, 1), sub(PIECES, 1));
+[low, high] = iter([div(mul(piece, math.tau), PIECES), div(mul(add(piece, 1), math.tau), PIECES)]);
+for (_ of iter(range(60))) {
+middle = mul(0.5, add(low, high));
+[low, high] = iter((lt(float(item(self.time(np.array([middle])), 0)), left) ? [middle, high] : [low, middle]));
+}
+return add(mul(math.tau, turns), mul(0.5, add(low, high)));
+}
+after(time) {
+const self = this;
+return HeldCircle(add(self.azimuth, mul(self.way, self.width(time))), self.way, self.R, self.w);
+}
+state() {
+let crab, g, heading, out;
+const self = this;
+[g, heading] = iter(ground_speed(self.azimuth, self.way, self.w));
+out = np.exp(mul(new Complex(0.0, 1.0), self.azimuth));
+crab = float(mul(mul(mul(conjugate_(heading), new Complex(0.0, 1.0)), self.way), out).real);
+return SlotState(complex(mul(self.R, out)), complex(heading), float(div(mul(mul(self.way, g), g), mul(self.R, crab))));
+}
+}, ["azimuth", "way", "R", "w"], 'HeldCircle');
+
+function _first_unclear(start, heading, circle, widths, finest) {
+let _, between, close, left, seen, unclear;
+seen = watched(start, heading, circle, widths);
+for (_ of iter(range(slot_check_PASSES))) {
+unclear = np.flatnonzero(lt(add(sliced(seen.time, null, -1, null), sliced(seen.clear, null, -1, null)), sliced(seen.time, 1, null, null)));
+close = item(unclear, le(sub(item(seen.time, add(unclear, 1)), item(seen.time, unclear)), finest));
+if (truth(close.size)) {
+seen = Watched(...iter(list(iter(seen)).map((field) => sliced(field, null, add(item(close, 0), 2), null))));
+unclear = item(unclear, lt(unclear, item(close, 0)));
+}
+if ((eq(unclear.size, 0) || gt(add(seen.time.size, unclear.size), MOST_TIMES))) {
+break;
+}
+between = watched(start, heading, circle, mul(0.5, add(item(seen.width, unclear), item(seen.width, add(unclear, 1)))));
+seen = Watched(...iter(list(iter(zip(seen, between))).map((one) => iter(one)).map(([old, new_]) => np.insert(old, add(unclear, 1), new_))));
+}
+left = np.flatnonzero(lt(add(sliced(seen.time, null, -1, null), sliced(seen.clear, null, -1, null)), sliced(seen.time, 1, null, null)));
+return (truth(left.size) ? Stop(float(item(seen.width, item(left, 0))), float(item(seen.time, item(left, 0)))) : null);
+}
+
+const LowerBound = struct(class extends Tuple {
+constructor(time, passed) {
+super();
+this.time = time;
+this.passed = passed;
+
+}
+}, ["time", "passed"], 'LowerBound');
+
+function _end_of_pass(start, heading, circle, begin, limit) {
+let away, seen;
+seen = watched(start, heading, circle, np.linspace(begin, limit, slot_check_SAMPLES));
+away = np.flatnonzero(ge(sliced(seen.gap, 1, null, null), NEAR));
+return (truth(away.size) ? float(item(seen.width, add(item(away, 0), 1))) : limit);
+}
+
+function _least_gap(start, heading, circle, begin, end) {
+let _, after, at, before, best, finer, high, k, low, lowest, seen;
+seen = watched(start, heading, circle, np.linspace(begin, end, slot_check_SAMPLES));
+[before, after] = iter([np.concatenate([[np.inf], sliced(seen.gap, null, -1, null)]), np.concatenate([sliced(seen.gap, 1, null, null), [neg(np.inf)]])]);
+lowest = np.flatnonzero(bit_and(le(seen.gap, before), le(seen.gap, after)));
+best = (eq(lowest.size, 0) ? float(seen.gap.min()) : np.inf);
+for (k of iter(sliced(item(lowest, np.argsort(item(seen.gap, lowest))), null, MINIMA, null))) {
+[low, high] = iter([float(item(seen.width, max(sub(k, 1), 0))), float(item(seen.width, min(add(k, 1), sub(slot_check_SAMPLES, 1))))]);
+for (_ of iter(range(ZOOMS))) {
+finer = watched(start, heading, circle, np.linspace(low, high, 21));
+[best, at] = iter([min(best, float(finer.gap.min())), int(finer.gap.argmin())]);
+[low, high] = iter([float(item(finer.width, max(sub(at, 1), 0))), float(item(finer.width, min(add(at, 1), 20)))]);
+}
+}
+return best;
+}
+
+const NearPass = struct(class extends Tuple {
+constructor(begin, end, gap) {
+super();
+this.begin = begin;
+this.end = end;
+this.gap = gap;
+
+}
+}, ["begin", "end", "gap"], 'NearPass');
 
 function fastest(problem) {
 let _, best;
@@ -5663,22 +6038,6 @@ this.t3 = t3;
 }
 }, ["side", "word", "t1", "t2", "t3"], 'Entry');
 
-const InitialAdjoint = struct(class extends Tuple {
-constructor(p, lam, phi) {
-super();
-this.p = p;
-this.lam = lam;
-this.phi = phi;
-
-}
-}, ["p", "lam", "phi"], 'InitialAdjoint');
-
-function vanishing_at(start, pieces, piece, p, lam) {
-let elapsed;
-elapsed = sum(list(iter(sliced(pieces, null, index_(pieces, piece), null))).map((before) => before.t));
-return InitialAdjoint(p, lam, inner(p, mul(new Complex(0.0, 1.0), sub(sub(piece.q, start.q), mul(start.w, elapsed)))));
-}
-
 function* _transversal(start, pieces, switched) {
 let across, along, angle, e, k, turned;
 [turned, [e, k]] = iter([switched.e, _end(start, pieces)]);
@@ -5804,6 +6163,65 @@ return (((best != null) && le(best.bound, mul(RESOLVED, max(1.0, abs(best.value)
 function _time_before(times, axis, h) {
 return times.time(axis, neg(h));
 }
+
+function hold_time(azimuth, width, way, R, w) {
+let _, g, node, total, weight;
+total = np.zeros_like(add(azimuth, width));
+for ([node, weight] of rows(zip(arrays.NODES, arrays.WEIGHTS))) {
+[g, _] = iter(ground_speed(add(azimuth, mul(mul(mul(way, width), 0.5), add(1.0, node))), way, w));
+total = add(total, div(mul(0.5, weight), g));
+}
+return mul(mul(R, width), total);
+}
+
+function ground_speed(azimuth, way, w) {
+let across, along, crab, track;
+track = mul(mul(new Complex(0.0, 1.0), way), np.exp(mul(new Complex(0.0, 1.0), azimuth)));
+[across, along] = iter([mul(w, conjugate_(track)).imag, mul(w, conjugate_(track)).real]);
+crab = np.sqrt(sub(1.0, pow(across, 2)));
+return [add(crab, along), mul(track, sub(crab, mul(new Complex(0.0, 1.0), across)))];
+}
+
+const SlotState = struct(class extends Tuple {
+constructor(place, heading, control) {
+super();
+this.place = place;
+this.heading = heading;
+this.control = control;
+
+}
+}, ["place", "heading", "control"], 'SlotState');
+
+function watched(start, heading, circle, width) {
+let _, azimuth, beyond, gap, place, slot_heading, time;
+time = circle.time(width);
+azimuth = add(circle.azimuth, mul(circle.way, width));
+[_, slot_heading] = iter(ground_speed(azimuth, circle.way, circle.w));
+place = div(sub(sub(mul(circle.R, np.exp(mul(new Complex(0.0, 1.0), azimuth))), mul(circle.w, time)), start), heading);
+beyond = sub(np.abs(place), time);
+gap = distance(place, np.angle(div(slot_heading, heading)), time);
+return Watched(width, time, gap, np.maximum(div(gap, CLOSING), mul(0.5, beyond)));
+}
+
+const Watched = struct(class extends Tuple {
+constructor(width, time, gap, clear) {
+super();
+this.width = width;
+this.time = time;
+this.gap = gap;
+this.clear = clear;
+
+}
+}, ["width", "time", "gap", "clear"], 'Watched');
+
+const Stop = struct(class extends Tuple {
+constructor(width, time) {
+super();
+this.width = width;
+this.time = time;
+
+}
+}, ["width", "time"], 'Stop');
 
 function _optimum_alone(...arguments_) {
 let best;
@@ -6286,6 +6704,22 @@ this.bound = bound;
 }
 }, ["value", "bound"], 'Slope');
 
+function distance(place, angle, t) {
+let arc_end, best, other, same, short, turned, u;
+best = add(np.abs(place), np.inf);
+for (u of iter([1.0, -1.0])) {
+turned = mod(mul(u, angle), math.tau);
+[arc_end, short] = iter([mul(mul(new Complex(0.0, 1.0), u), sub(1.0, np.exp(mul(mul(new Complex(0.0, 1.0), u), t)))), np.abs(sub(mod(add(sub(turned, t), math.pi), math.tau), math.pi))]);
+best = np.minimum(best, np.maximum(np.abs(sub(place, arc_end)), mul(mul(0.5, CLOSING), short)));
+same = sub(place, mul(mul(new Complex(0.0, 1.0), u), sub(1.0, np.exp(mul(new Complex(0.0, 1.0), angle)))));
+other = sub(place, mul(mul(new Complex(0.0, 1.0), u), add(1.0, np.exp(mul(new Complex(0.0, 1.0), angle)))));
+best = np.minimum(best, _beside_same(same, u, turned, t));
+best = np.fmin(best, _beside_other(other, u, turned, t));
+best = np.minimum(best, _beside_three_arcs(same, u, turned, t));
+}
+return best;
+}
+
 function _path(one) {
 return path_of_length(one.arrival.at(one.time), one.time, one.tolerance);
 }
@@ -6383,6 +6817,55 @@ squares = [[kernel.beyond(x, ordinate, R, 2.0), add(add(rp, R), 1.0)], [kernel.b
 distances = add(distances, list(iter(squares)).map((one) => iter(one)).filter(([square, total]) => gt(total, 0.0)).map(([square, total]) => div(abs(square), total)));
 }
 return min(list(iter(distances)).filter((distance) => gt(distance, kernel.rounding(x, y, R))).map((distance) => distance), { default: math.inf });
+}
+
+function _beside_same(same, u, turned, t) {
+let a, arcs, best, k, ok, straight;
+best = add(np.abs(same), np.inf);
+for (k of iter(range(3))) {
+arcs = add(turned, mul(math.tau, k));
+straight = sub(t, arcs);
+for (a of iter([mul(0.0, t), arcs, mod(mul(u, np.angle(same)), math.tau)])) {
+ok = bit_and(ge(straight, 0.0), le(a, arcs));
+best = np.where(ok, np.minimum(best, np.abs(sub(same, mul(straight, np.exp(mul(mul(new Complex(0.0, 1.0), u), a)))))), best);
+}
+}
+return best;
+}
+
+function _beside_other(other, u, turned, t) {
+let a, best, direction, end, found, k, least, more, most, ok, tip;
+best = add(np.abs(other), np.inf);
+tip = np.arcsin(div(mul(-2.0, u), np.abs(other)));
+for (k of iter(range(-2, 2))) {
+more = add(turned, mul(math.tau, k));
+[least, most] = iter([np.maximum(more, 0.0), mul(0.5, add(t, more))]);
+found = [least, most];
+for (direction of iter([sub(np.angle(other), tip), add(sub(np.angle(other), math.pi), tip)])) {
+found = add(found, list(iter(range(3))).map((n) => add(mod(mul(u, direction), math.tau), mul(math.tau, n))));
+}
+for (a of iter(found)) {
+end = mul(sub(add(sub(t, mul(2.0, a)), more), mul(new Complex(0.0, 2.0), u)), np.exp(mul(mul(new Complex(0.0, 1.0), u), a)));
+ok = bit_and(ge(a, least), le(a, most));
+best = np.where(ok, np.fmin(best, np.abs(sub(other, end))), best);
+}
+}
+return best;
+}
+
+function _beside_three_arcs(same, u, turned, t) {
+let a, best, chord, k, middle, most, ok;
+best = add(np.abs(same), np.inf);
+for (k of iter(range(2))) {
+middle = add(mul(0.5, mod(sub(t, turned), math.tau)), mul(math.pi, k));
+most = sub(t, middle);
+chord = mul(mul(new Complex(0.0, 2.0), u), sub(np.exp(mul(mul(neg(new Complex(0.0, 1.0)), u), middle)), 1.0));
+for (a of iter([mul(0.0, t), most, mod(mul(u, sub(np.angle(same), np.angle(chord))), math.tau)])) {
+ok = bit_and(ge(most, 0.0), le(a, most));
+best = np.where(ok, np.minimum(best, np.abs(sub(same, mul(chord, np.exp(mul(mul(new Complex(0.0, 1.0), u), a)))))), best);
+}
+}
+return best;
 }
 
 function path_of_length(ends, wanted, tolerance) {
@@ -6747,8 +7230,8 @@ const LEAST_CORNERS = 3;
 const MAX_POINTS = 20000;
 const REACH = pow(2.0, 52);
 const CHORD_ERROR = 0.002;
-const OPTIONS = new Map([["pose", "--pose"], ["orbit", "--orbit"], ["turn", "--turn"], ["airspeed_m_s", "--airspeed"], ["max_bank_deg", "--bank"], ["min_turn_radius_m", "--turn-radius"], ["max_turn_rate_deg_s", "--turn-rate"], ["wind", "--wind"], ["orbit_velocity_m_s", "--orbit-velocity"], ["tolerance_m", "--tolerance"], ["exit_to", "--exit-to"], ["hold_s", "--hold"], ["turns", "--turns"], ["start_altitude_m", "--altitude"], ["altitude_m", "--to-altitude"], ["climb_rate_m_s", "--climb-rate"], ["descent_rate_m_s", "--descent-rate"]]);
-const IN_STILL_AIR = Formulation([Condition("target", "x(T) = 0, y(T) = R or -R (8)-(10)", target), Condition("join", "the last pose, reduced by (2), is the target", join), Condition("turn", "the circle is held as asked for", turn)], [EquationOfMotion("motion", "x' = 1 + u y, y' = -u x (7)", ((now) => now.reduced), ((piece, now) => sub(1.0, mul(mul(new Complex(0.0, 1.0), piece.u), now.reduced)))), EquationOfMotion("adjoint", "psi1' = u psi2, psi2' = -u psi1 (12)", ((now) => now.psi), ((piece, now) => mul(mul(-new Complex(0.0, 1.0), piece.u), now.psi))), EquationOfMotion("slope", "phi' = -psi2 (17)", ((now) => now.phi), ((piece, now) => neg(now.psi2)))], new Map([["norm", "|psi| = 1 (18)"], ["multiplier", "lambda >= 0"], ["sign", "u = sign phi, u = 0 only where phi = 0 (13)"], ["hamiltonian", "|phi| + psi1 = lambda (14)"], ["psi1", "psi1 <= lambda (16)"], ["transversality", "psi1(T) (1 + u side R) = lambda"]]), [Condition("switch", "phi = 0, psi1 = lambda at each switch", switch_), Condition("middle arc", "lasts 2 pi - 2 acos lambda, more than pi", middle_arc), Condition("slopes", "x1/y1 = -x/y (19)", slopes), Condition("line", "y = 0 while u = 0: a line through the centre", line), Condition("axis", "|psi2| times the |y| reached beyond = 0 where y changes sign", axis), Condition("last arc", "lasts pi/3 at most", partial(last_arc, { tight: true })), Condition("last arc", "lasts acos(1/(1 + R)) at most", partial(last_arc, { tight: false }))], GradientEquations("lambda grad T = -psi", "1 + min grad T . f = 0"));
+const OPTIONS = new Map([["pose", "--pose"], ["orbit", "--orbit"], ["turn", "--turn"], ["airspeed_m_s", "--airspeed"], ["max_bank_deg", "--bank"], ["min_turn_radius_m", "--turn-radius"], ["max_turn_rate_deg_s", "--turn-rate"], ["wind", "--wind"], ["orbit_velocity_m_s", "--orbit-velocity"], ["tolerance_m", "--tolerance"], ["exit_to", "--exit-to"], ["hold_s", "--hold"], ["turns", "--turns"], ["start_altitude_m", "--altitude"], ["altitude_m", "--to-altitude"], ["climb_rate_m_s", "--climb-rate"], ["descent_rate_m_s", "--descent-rate"], ["slot phase_deg", "--slot"], ["slot at_s", "--slot-at"]]);
+const IN_STILL_AIR = Formulation([Condition("target", "x(T) = 0, y(T) = R or -R (8)-(10)", target), Condition("join", "the last pose, reduced by (2), is the target", join), Condition("turn", "the circle is held as asked for", turn)], [EquationOfMotion("motion", "x' = 1 + u y, y' = -u x (7)", ((now) => now.reduced), ((piece, now) => sub(1.0, mul(mul(new Complex(0.0, 1.0), piece.u), now.reduced)))), EquationOfMotion("adjoint", "psi1' = u psi2, psi2' = -u psi1 (12)", ((now) => now.psi), ((piece, now) => mul(mul(neg(new Complex(0.0, 1.0)), piece.u), now.psi))), EquationOfMotion("slope", "phi' = -psi2 (17)", ((now) => now.phi), ((piece, now) => neg(now.psi2)))], new Map([["norm", "|psi| = 1 (18)"], ["multiplier", "lambda >= 0"], ["sign", "u = sign phi, u = 0 only where phi = 0 (13)"], ["hamiltonian", "|phi| + psi1 = lambda (14)"], ["psi1", "psi1 <= lambda (16)"], ["transversality", "psi1(T) (1 + u side R) = lambda"]]), [Condition("switch", "phi = 0, psi1 = lambda at each switch", switch_), Condition("middle arc", "lasts 2 pi - 2 acos lambda, more than pi", middle_arc), Condition("slopes", "x1/y1 = -x/y (19)", slopes), Condition("line", "y = 0 while u = 0: a line through the centre", line), Condition("axis", "|psi2| times the |y| reached beyond = 0 where y changes sign", axis), Condition("last arc", "lasts pi/3 at most", partial(last_arc, { tight: true })), Condition("last arc", "lasts acos(1/(1 + R)) at most", partial(last_arc, { tight: false }))], GradientEquations("lambda grad T = -psi", "1 + min grad T . f = 0"));
 const IN_WIND = Formulation([Condition("target", "|q(T)| = R", distance_from_circle), Condition("course", "q.(e + w) = 0 at T: along the circle (1)", course), Condition("join", "the last pose over the ground is where the circle is then", conditions_join), Condition("turn", "the circle is held as asked for", turn_as_flown)], [EquationOfMotion("motion", "q' = e + w", ((now) => now.q), ((piece, now) => add(now.e, piece.w))), EquationOfMotion("turning", "e' = u J e", ((now) => now.e), ((piece, now) => mul(mul(new Complex(0.0, 1.0), piece.u), now.e))), EquationOfMotion("slope", "f' = -p.Je", ((now) => now.phi), ((piece, now) => neg(now.psi2)))], new Map([["norm", "|p| = 1"], ["multiplier", "lambda + p.w >= 0 (4)"], ["sign", "u = sign f, u = 0 only where f = 0 (4)"], ["hamiltonian", "|f| + p.e = lambda (4)"], ["transversality", "p.(e + w) + u h k (lambda - p.e) = 0 at T (5)"]]), [], GradientEquations("(lambda + p.w) grad T = -(p, f)", "1 + min grad T . (e + w, u) = 0"));
 const SHORTEST_PERIOD_S = 10.0;
 const PERIOD = 4.0;
@@ -6757,11 +7240,11 @@ const SAME_TIME = 1e-09;
 const HOLD_LETTERS = new Map([[Turn.CW, "R"], [Turn.CCW, "L"]]);
 const SAME_CORNER_M = 1e-06;
 const TOUCH_M = 1e-06;
+const TWO_PI = mul(2.0, math.pi);
+const MOST_TURNS = 100000.0;
 const BASIS_VIOLATED = "a condition is violated";
 const BASIS_THEOREM = "docs/proof.md, theorem 1, up to rounding";
 const BASIS_NECESSARY = "necessary conditions only";
-const BY_THE_THEOREM = "Optimal, up to rounding, by theorem 1 of docs/proof.md.";
-const NOT_PROVED = "Not proved to be optimal: these conditions are necessary ones, and no extremal that was found is faster.";
 const ON_THE_CIRCLE = "the start is on the circle: there is nothing to decide, and the target is all there is to check";
 const ARC_IN_WIND = "a single arc has many adjoints: this is the one that violates the conditions least";
 const UNIQUE_IN_WIND = "the adjoint is unique: the pieces and the condition at the circle determine it";
@@ -6770,6 +7253,14 @@ const ARC_BY_ROUNDING = "a single arc (the other is there by rounding alone)";
 const STRAIGHT_ENTRY = "that of a straight entry that ends in it, (1, 0) on the axis";
 const SWITCH_AT_START = "that of a switch at its start, parallel to the state there";
 const LETTERS = new Map(list(iter(items_(CONTROLS))).map((one) => iter(one)).map(([letter, u]) => [u, letter]));
+const HERE = Slot(0.0);
+const BASIS_SLOT = "an extremal into the slot; that no path arrives earlier is cross-checked by an independent method";
+const STARTS_IN_SLOT = "the start is in the slot: there is nothing to decide, and the target is all there is to check";
+const LINE = "the adjoint is unique: it is along the straight piece";
+const BISECTOR = "the adjoint is unique: the two switches determine it";
+const ANY = "fewer than two switches have many adjoints: this is one";
+const DOUBLE_ROOT = 8.0;
+const REACHED = 1e-12;
 const PERIOD_S = 17.0;
 const DAMPING = 0.75;
 const AWAY_HEADING_COS = math.cos(math.radians(60.0));
@@ -6794,6 +7285,10 @@ const _MESSAGES = new Map([[kernel.Status.OK, "solved"], [kernel.Status.NOT_FINI
 const WIND_TIE_TOLERANCE = 1e-12;
 const accuracy_STEP = pow(2.0, -15);
 const BESIDE_LAST_ARC = "the tolerance counts the start as on the last arc, but T without a tolerance does not";
+const fits_SHORT = 0.0001;
+const SHORT = fits_SHORT;
+const BEGIN = 129;
+const FINEST = 1e-09;
 const LATEST_S = 1000000000000.0;
 const LARGEST_VALUE = 1000000000.0;
 const LEAST_SPEED_M_S = 1.0;
@@ -6804,7 +7299,7 @@ const PHASES = new Map([[1, Phase.LEFT], [0, Phase.STRAIGHT], [-1, Phase.RIGHT]]
 const STILL = [0.0, 0.0];
 const SMALLEST_TURN = pow(2.0, -54);
 const MOST_STATES = 12000;
-const MOST_TURNS = 255;
+const legs_MOST_TURNS = 255;
 const LARGEST_TURNS_RADIUS_M = 255.0;
 const FROM_EXIT = 1.0;
 const HEADING_REQUIRED = 1.0;
@@ -6824,12 +7319,18 @@ const MOST_LEVELS = 16;
 const SPLIT = 12;
 const FIRST_PART_RAD = 0.8;
 const RESOLUTION_M = mul(0.1, TOUCH_M);
-const fits_SHORT = 0.0001;
-const SHORT = fits_SHORT;
+const adjoints_SHORT = fits_SHORT;
 const SAMPLES = 9;
 const STRAIGHTENS = 0.85;
 const RESOLVED = 0.001;
 const AT_CORNER = "T has a corner: its one-sided derivatives";
+const PIECES = 256;
+const slot_check_PASSES = 60;
+const MOST_TIMES = 50000;
+const slot_check_SAMPLES = 2001;
+const NEAR = 0.001;
+const MINIMA = 20;
+const ZOOMS = 12;
 const LARGEST_K = 10.0;
 const FIELD_SHARE = 0.9;
 const MOST_HELD = mul(100000.0, math.tau);
@@ -6844,6 +7345,7 @@ const NO_PIECE_M = 1e-08;
 const SCANNED_DIRECTIONS = 720;
 const STEPS_IN_STILL_AIR = tuple(list(iter(range(4, 34))).map((k) => pow(2.0, neg(k))));
 const STEPS_IN_WIND = [pow(2.0, -6), pow(2.0, -9), pow(2.0, -12), pow(2.0, -15)];
+const CLOSING = 8.0;
 const JOINS = 48;
 const LINE_STEP = 0.5;
 const MOST_ON_LINE = 24;
@@ -6852,10 +7354,9 @@ const PIECE_M = 0.001;
 const NO_LENGTH_M = 1e-100;
 const LONGEST = 1000000.0;
 const WHOLE_TURN = 1e-09;
-const TWO_PI = mul(2.0, math.pi);
 const SAME_LENGTH = 1e-09;
 const elongation_HALVINGS = 70;
 const OUTER_CONTROLS = [[1, 1], [-1, -1], [1, -1], [-1, 1]];
 const BESIDE = 1e-07;
 
-export { plan, all_candidates, certificate, lap, race, leg_plan, leg_fence_check, leg_file, fence_check, clear_plan, clear_maneuver, CircleZone, PolygonZone, Fence, _check_points, FILE_FORMATS, SaveArguments, AltitudeDatum, AUTOPILOTS, JSON_FIELDS, Pose, Orbit, Aircraft, Wind, Problem, all_fastest, heading_vector, Maneuver, LocalFrame, PlacedProblem, _kind, NARROW, SHARE, JUMP, LARGEST_GAP, VANISHING };
+export { plan, certificate, first_maneuver, lap, race, leg_plan, leg_fence_check, leg_file, fence_check, clear_plan, clear_maneuver, CircleZone, PolygonZone, Fence, _check_points, FILE_FORMATS, SaveArguments, AltitudeDatum, AUTOPILOTS, JSON_FIELDS, Pose, Orbit, Aircraft, Wind, Problem, Slot, slot_pose, heading_vector, Maneuver, LocalFrame, PlacedProblem, _kind, NARROW, SHARE, JUMP, LARGEST_GAP, VANISHING };

@@ -281,6 +281,29 @@ export function put(all, key, value) {
       all[indices[i] * width + j] = value instanceof Vector ? value[value.length === width ? j : i * width + j] : Number(value);
 }
 
+/** An array with other elements before those at indices. */
+function insert(all, indices, values) {
+  const found = new Vector(all.length + indices.length);
+  for (let i = 0, k = 0; i <= all.length; i++) {
+    if (k < indices.length && indices[k] === i) found[i + k] = values[k++];
+    if (i < all.length) found[i + k] = all[i];
+  }
+  return found;
+}
+
+// Complex numbers, whose parts may be arrays
+
+export class Complex {
+  constructor(real, imag) {
+    this.real = real;
+    this.imag = imag;
+  }
+}
+const times = ofTwo((a, b) => a * b);
+const exp = unary(Math.exp);
+/** Real functions, and what they are of complex numbers. */
+const ofComplex = (ofReal, ofBoth) => (z) => (z instanceof Complex ? ofBoth(z) : ofReal(z));
+
 // The module
 
 function stack(all, { axis = 0 } = {}) {
@@ -350,7 +373,11 @@ const logical_and = {
 
 const DEGREE = Math.PI / 180;
 export const np = {
-  abs: unary(Math.abs),
+  abs: ofComplex(unary(Math.abs), ({ real, imag }) => np.hypot(real, imag)),
+  angle: ({ real, imag }) => np.arctan2(imag, real),
+  exp: ofComplex(exp, ({ real, imag }) => new Complex(times(exp(real), np.cos(imag)), times(exp(real), np.sin(imag)))),
+  fmin: ofTwo((a, b) => (b < a || Number.isNaN(a) ? b : a)),
+  insert,
   sin: unary(Math.sin),
   cos: unary(Math.cos),
   sqrt: unary(Math.sqrt),

@@ -3,17 +3,9 @@
 // numbers, arrays and text under its operators and formats, and what that code calls of its library.
 
 import { Word } from "./kernel.js";
-import { Mask, Slice, Vector, array, at, binary, filled, put, rowsOf, unary } from "./numpy.js";
+import { Complex, Mask, Slice, Vector, array, at, binary, filled, np, put, rowsOf, unary } from "./numpy.js";
 
 // Values
-
-/** A complex number. */
-export class Complex {
-  constructor(real, imag) {
-    this.real = real;
-    this.imag = imag;
-  }
-}
 
 const isList = (a) => Array.isArray(a) || a instanceof Vector;
 
@@ -88,15 +80,15 @@ const complex = (a) => (a instanceof Complex ? a : new Complex(number(a), 0));
 function operator(ofNumbers, ofComplex) {
   return function apply(a, b) {
     if (typeof a === "number" && typeof b === "number") return ofNumbers(a, b);
-    if (a instanceof Vector || b instanceof Vector) return binary(ofNumbers, a, b);
     if (a instanceof Complex || b instanceof Complex) return ofComplex(complex(a), complex(b));
+    if (a instanceof Vector || b instanceof Vector) return binary(ofNumbers, a, b);
     return ofNumbers(number(a), number(b));
   };
 }
 
 const addNumbers = operator(
   (a, b) => a + b,
-  (a, b) => new Complex(a.real + b.real, a.imag + b.imag),
+  (a, b) => new Complex(add(a.real, b.real), add(a.imag, b.imag)),
 );
 export function add(a, b) {
   if (typeof a === "string") return a + b;
@@ -104,11 +96,11 @@ export function add(a, b) {
 }
 export const sub = operator(
   (a, b) => a - b,
-  (a, b) => new Complex(a.real - b.real, a.imag - b.imag),
+  (a, b) => new Complex(sub(a.real, b.real), sub(a.imag, b.imag)),
 );
 const mulNumbers = operator(
   (a, b) => a * b,
-  (a, b) => new Complex(a.real * b.real - a.imag * b.imag, a.real * b.imag + a.imag * b.real),
+  (a, b) => new Complex(sub(mul(a.real, b.real), mul(a.imag, b.imag)), add(mul(a.real, b.imag), mul(a.imag, b.real))),
 );
 export function mul(a, b) {
   return Array.isArray(a) ? Array(Math.max(0, number(b))).fill(a).flat() : mulNumbers(a, b);
@@ -116,8 +108,9 @@ export function mul(a, b) {
 export const div = operator(
   (a, b) => a / b,
   (a, b) => {
-    const size = b.real * b.real + b.imag * b.imag;
-    return new Complex((a.real * b.real + a.imag * b.imag) / size, (a.imag * b.real - a.real * b.imag) / size);
+    const size = add(mul(b.real, b.real), mul(b.imag, b.imag));
+    const { real, imag } = mul(a, conjugate_(b));
+    return new Complex(div(real, size), div(imag, size));
   },
 );
 /** The remainder, with the sign of the divisor. */
@@ -133,7 +126,7 @@ export function bit_or(a, b) {
   if (a instanceof Map) return new Map([...a, ...b]);
   return isArray(a, b) ? binary((one, other) => one | other, a, b, Mask) : a | b;
 }
-export const neg = (a) => (a instanceof Complex ? new Complex(-a.real, -a.imag) : typeof a === "number" ? -a : mul(a, -1));
+export const neg = (a) => (a instanceof Complex ? mul(a, -1) : typeof a === "number" ? -a : mul(a, -1));
 /** Not, of truth values. */
 export const invert = unary((a) => Number(a === 0), Mask);
 
@@ -296,18 +289,18 @@ export const tolist_ = (all) => (all.axes ? rowsOf(all).map(tolist_) : Array.pro
 export const round_ = (all, digits) => all.map((one) => round(one, digits));
 export const any_ = (all) => all.some(truth);
 export const copy_ = (all) => all.slice();
-export const conjugate_ = (z) => new Complex(complex(z).real, -complex(z).imag);
+export const conjugate_ = (z) => new Complex(complex(z).real, neg(complex(z).imag));
 export const index_ = (all, one) => all.findIndex((other) => eq(one, other));
 
 // Functions
 
 const size = unary(Math.abs);
-export const abs = (a) => (a instanceof Complex ? Math.hypot(a.real, a.imag) : size(a));
+export const abs = (a) => (a instanceof Complex ? np.hypot(a.real, a.imag) : size(a));
 export const float = Number;
 export const bool = Boolean;
 export const int = (a) => Math.trunc(number(a));
 export { makeComplex as complex };
-const makeComplex = (real, imag) => new Complex(real, imag);
+const makeComplex = (real, imag) => (real instanceof Complex ? real : new Complex(real, imag));
 const DEGREE = Math.PI / 180;
 export const math = {
   ...Object.fromEntries(["sin", "cos", "tan", "acos", "asin", "atan", "atan2", "sqrt", "hypot", "floor", "ceil", "trunc"].map((name) => [name, Math[name]])),
@@ -329,12 +322,7 @@ export const math = {
   degrees: (a) => a * (180 / Math.PI),
   copysign: (a, b) => (b < 0 || Object.is(b, -0) ? -Math.abs(a) : Math.abs(a)),
 };
-export const cmath = {
-  exp(z) {
-    const { real, imag } = complex(z);
-    return new Complex(Math.exp(real) * Math.cos(imag), Math.exp(real) * Math.sin(imag));
-  },
-};
+export const cmath = { exp: (z) => np.exp(complex(z)) };
 /** A function of numbers that gives one or several, for each element of arrays: an array of each. */
 export const elementwise =
   (change) =>

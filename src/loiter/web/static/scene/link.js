@@ -39,6 +39,7 @@ const PRECISION = 1e-7;
 const ANGLE_DEG = 1e-7; // at a distance of 1 km, 2 micrometres
 const PLACE_DEG = 1e-9; // 0.1 mm on the ground
 const ALTITUDE_M = 1e-4;
+const TIME_S = 1e-7;
 
 /**
  * Numbers of a link, with the fewest decimals that still give the same plan.
@@ -68,7 +69,7 @@ function sceneParts(scene) {
     parts.push(`orbit-velocity=${joined([orbit.velocity_east_m_s, orbit.velocity_north_m_s], speed)}`);
   if (tolerance_m !== 0) parts.push(`tolerance=${tolerance_m}`);
   if (origin) parts.push(`origin=${joined([origin.latitude_deg, origin.longitude_deg], PLACE_DEG)}`);
-  return [...parts, ...fenceParts(scene, length)];
+  return [...parts, ...fenceParts(scene, length), ...slotParts(scene)];
 }
 
 /**
@@ -92,6 +93,13 @@ function fenceParts({ fence }, length) {
     return `zone=${name},${zone.inclusion ? "in" : "out"},${joined(values, length)}`;
   });
   return [...zones, ...(fence.margin_m === null ? [] : [`margin=${joined([fence.margin_m], length)}`])];
+}
+
+/** The slot, named like the options of the command line. @param {Scene} scene */
+function slotParts({ slot }) {
+  if (!slot) return [];
+  const at = slot.at_s === 0 ? [] : [`slot-at=${joined([slot.at_s], TIME_S)}`];
+  return [`slot=${joined([slot.phase_deg], ANGLE_DEG)}`, ...at];
 }
 
 /** @param {Altitude} altitude */
@@ -130,9 +138,16 @@ function sceneOf(parameters) {
     tolerance_m: numbers(parameters, "tolerance", 1, [0])[0],
     origin: parameters.has("origin") ? originOf(numbers(parameters, "origin", 2)) : null,
     fence: fenceOf(parameters),
+    slot: slotOf(parameters),
   };
   const [speed_m_s, from_deg] = numbers(parameters, "wind", 2, [0, 0]);
   return withWind(scene, { speed_m_s, from_deg });
+}
+
+/** @param {URLSearchParams} parameters @returns {import("../shared/types.js").Slot | null} */
+function slotOf(parameters) {
+  if (!parameters.has("slot") && !parameters.has("slot-at")) return null;
+  return { phase_deg: numbers(parameters, "slot", 1)[0], at_s: numbers(parameters, "slot-at", 1, [0])[0] };
 }
 
 /** @param {URLSearchParams} parameters @returns {import("../shared/types.js").Fence | null} */

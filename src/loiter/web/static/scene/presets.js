@@ -31,6 +31,7 @@ function scene([east_m, north_m, heading_deg], radius_m, aircraft, wind = null) 
     tolerance_m: 0,
     origin: null,
     fence: null,
+    slot: null,
   };
 }
 

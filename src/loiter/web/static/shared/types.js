@@ -28,6 +28,10 @@
  * @property {Origin | null} origin
  * @property {Fence | null} fence
  * @property {Leg | null} [leg]
+ * @property {Slot | null} slot
+ *
+ * @typedef {{phase_deg: number, at_s: number}} Slot  a place on the circle that moves with the hold: its bearing from the
+ *   centre at a time
  *
  * @typedef {{name: string, east_m: number, north_m: number, radius_m: number, inclusion: boolean}} CircleZone
  * @typedef {{name: string, corners: [number, number][], inclusion: boolean}} PolygonZone  east and north of its corners

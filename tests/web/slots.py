@@ -1,0 +1,118 @@
+"""The page's engine beside the library for scenes with a slot.
+
+`PYTHONPATH=src:tests:. python -m web.slots 1000` compares that many scenes and counts the differences.
+"""
+
+import random
+import sys
+from collections import Counter
+from pathlib import Path
+
+from loiter.io.files import SaveArguments, file_content
+from loiter.io.missions.altitudes import AltitudeDatum, AltitudeReference
+from loiter.io.missions.items import AUTOPILOTS
+from loiter.planning.slot import Slot
+from loiter.web import models
+from loiter.web.answers import plans
+from loiter.web.answers.tracks import lap
+from web.engine import CLOSE, FLAT, FORMATS, answered, difference, difference_of_files, drawn, of_the_page, verdicts
+
+# The place of a slot at the join, and the end of the path, which are found by different ways.
+MEETS_M = 1e-6
+
+
+def slot_of(chance):
+    """A slot as the page has it; now and then one that is too far in time."""
+    at_s = chance.choice([0.0, 0.0, chance.uniform(-100.0, 100.0), 1e9])
+    return {"phase_deg": round(chance.uniform(-360.0, 720.0), 2), "at_s": round(at_s, 2)}
+
+
+def drawn_with_slots(count, seed, *, certified):
+    """Scenes of every kind, each with a slot; the first `certified` of them have their certificates compared."""
+    chance = random.Random(seed)
+    return [
+        scene
+        | {
+            "slot": slot_of(chance),
+            "tolerance_m": chance.choice([0.0] * 7 + [1.0]),
+            "uncertified": i >= certified,
+        }
+        for i, scene in enumerate(drawn(count, seed))
+    ]
+
+
+def of_the_library(scene):
+    """The library's plan, certificate, lap and files of a scene with a slot."""
+    options = models.ExportOptions.model_validate(
+        {name: scene[name] for name in scene if name not in ("slot", "uncertified")}
+    )
+    return {
+        "plan": answered(lambda: plans.plan(options.placed(), Slot(**scene["slot"]))),
+        "certificate": None
+        if scene["uncertified"]
+        else answered(lambda: plans.certificate(options.placed(), Slot(**scene["slot"]))),
+        "lap": answered(lambda: lap(_entry(scene, options))),
+        "files": {name: answered(lambda name=name: _file(name, scene, options)) for name in FORMATS},
+    }
+
+
+def _entry(scene, options):
+    return plans.first_maneuver(options.placed().problem, Slot(**scene["slot"]))
+
+
+def _file(name, scene, options):
+    """What `loiter plan --slot --save` writes, missions with `--along-path`."""
+    datum = AltitudeDatum(AltitudeReference(options.altitude_reference), options.home_altitude_m)
+    arguments = SaveArguments(
+        maneuver=_entry(scene, options),
+        frame=options.placed().frame,
+        altitude_m=options.altitude_m,
+        datum=datum,
+        spacing_m=None,
+        chord_error_m=1.0,
+        autopilot=AUTOPILOTS["ardupilot"],
+        along_path=name in ("plan", "waypoints"),
+    )
+    return file_content(Path(f"entry.{name}"), arguments).decode()
+
+
+def differences(scene, page):
+    """In what the page's answers to a scene with a slot differ from the library's, and how it ends, by name."""
+    library, found = of_the_library(scene), Counter()
+    a, b = page["plan"], library["plan"]
+    if "refusal" in a or "refusal" in b:
+        what = difference(a, b, CLOSE)
+        return Counter([f"refusal: {what}" if what else "refused by both"])
+    found["slots in wind" if scene["wind"] or scene["orbit"]["velocity_north_m_s"] else "slots in still air"] += 1
+    if abs(a["duration_s"] - b["duration_s"]) > CLOSE * (1.0 + b["duration_s"]):
+        found[f"time: {a['duration_s']} instead of {b['duration_s']}"] += 1
+    size = max(abs(scene["pose"]["east_m"]), abs(scene["pose"]["north_m"]), scene["orbit"]["radius_m"], 1.0)
+    if what := difference(a, b, FLAT, size):
+        found[f"plan: {what[:90]}"] += 1
+    if what := difference(page["lap"], library["lap"], FLAT, size):
+        found[f"lap: {what[:90]}"] += 1
+    if not scene["uncertified"]:
+        what = difference(verdicts(page["certificate"]), verdicts(library["certificate"]), CLOSE)
+        found[f"certificate: {what[:90]}" if what else "certificates"] += 1
+    miss_m = max(abs(page["slotPose"][name] - b["join"][name]) for name in ("east_m", "north_m"))
+    if miss_m > MEETS_M * (1.0 + size):
+        found[f"the slot is {miss_m:g} m from the join"] += 1
+    for name in FORMATS:
+        what = difference_of_files(page["files"][name], library["files"][name], size)
+        if what not in ("", "digits"):
+            found[f"{name}: {what[:80]}"] += 1
+    return found
+
+
+def main(count):
+    """Compare so many scenes, and print what differs how often."""
+    found = Counter()
+    for start in range(0, count, 200):
+        scenes = drawn_with_slots(min(200, count - start), seed=start, certified=40)
+        for scene, page in zip(scenes, of_the_page(scenes), strict=True):
+            found += differences(scene, page)
+        print(f"{start + len(scenes)} scenes: {dict(found.most_common())}", flush=True)
+
+
+if __name__ == "__main__":
+    main(int(sys.argv[1]))
