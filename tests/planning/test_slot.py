@@ -9,6 +9,8 @@ from hypothesis import strategies as st
 
 from loiter import Aircraft, Orbit, Pose, Slot, Turn, Wind, hold, plan
 from loiter.errors import InvalidArgument, OutOfRange, RadiusTooSmall
+from loiter.planning.problem import Problem
+from loiter.planning.slot import slot_pose
 
 UAV, POSE, ORBIT = Aircraft(18.0, max_bank_deg=35.0), Pose(-400.0, 120.0, 90.0), Orbit(0.0, 0.0, 120.0)
 WINDS = [None, Wind(8.0, 250.0)]
@@ -40,6 +42,20 @@ def test_a_plan_ends_in_the_slot_over_the_ground(wind):
     assert turns == pytest.approx(round(turns), abs=1e-4)
     assert ORBIT.distance_m(m.join) == pytest.approx(ORBIT.radius_m, abs=1e-9)
     assert m.miss_m < 1e-9
+
+
+@pytest.mark.parametrize("wind", WINDS)
+@pytest.mark.parametrize("orbit", [ORBIT, Orbit(0.0, 0.0, 120.0, "cw", 3.0, -2.0)])
+def test_the_slot_is_where_the_plan_ends_and_where_it_is_given(orbit, wind):
+    slot = Slot(200.0, at_s=-10.0)
+    m = plan(POSE, orbit, UAV, wind, slot=slot)
+    problem = Problem(POSE, orbit, UAV, wind or Wind(0.0, 0.0)).with_turn(m.turn)
+    there, given_there = slot_pose(slot, problem, m.duration_s), slot_pose(slot, problem, -10.0)
+    assert math.dist((there.east_m, there.north_m), (m.join.east_m, m.join.north_m)) < 1e-8
+    assert math.remainder(there.heading_deg - m.join.heading_deg, 360.0) == pytest.approx(0.0, abs=1e-8)
+    east, north = orbit.centre_after(-10.0)
+    bearing = math.degrees(math.atan2(given_there.east_m - east, given_there.north_m - north))
+    assert bearing % 360.0 == pytest.approx(200.0, abs=1e-9)
 
 
 @pytest.mark.parametrize("wind", WINDS)

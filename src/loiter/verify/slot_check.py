@@ -252,11 +252,16 @@ class Stop(NamedTuple):
     time: float
 
 
+def _excludes(seen: Watched) -> Any:
+    """Whether each time excludes an arrival up to the next one; a distance that is nan does not."""
+    return seen.time[:-1] + seen.clear[:-1] >= seen.time[1:]
+
+
 def _first_unclear(start: complex, heading: complex, circle: HeldCircle, widths: Reals, finest: float) -> Stop | None:
     """The first of the divided times that does not exclude an arrival up to the next one; None if all do."""
     seen = watched(start, heading, circle, widths)
     for _ in range(PASSES):
-        unclear = np.flatnonzero(seen.time[:-1] + seen.clear[:-1] < seen.time[1:])
+        unclear = np.flatnonzero(~_excludes(seen))
         close = unclear[seen.time[unclear + 1] - seen.time[unclear] <= finest]
         if close.size:
             seen = Watched(*(field[: close[0] + 2] for field in seen))
@@ -265,7 +270,7 @@ def _first_unclear(start: complex, heading: complex, circle: HeldCircle, widths:
             break
         between = watched(start, heading, circle, 0.5 * (seen.width[unclear] + seen.width[unclear + 1]))
         seen = Watched(*(np.insert(old, unclear + 1, new) for old, new in zip(seen, between, strict=True)))
-    left = np.flatnonzero(seen.time[:-1] + seen.clear[:-1] < seen.time[1:])
+    left = np.flatnonzero(~_excludes(seen))
     return Stop(float(seen.width[left[0]]), float(seen.time[left[0]])) if left.size else None
 
 

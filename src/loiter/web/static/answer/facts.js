@@ -85,7 +85,8 @@ function drawFacts(state) {
   setFact("path", path, answer.wind.speed_m_s > 0 ? "through the air" : "");
   setFact("word", wordLabel(flown.word), DIRECTIONS[flown.turn]);
   setFact("other", clear?.maneuver ? "–" : otherDirectionText(answer, scene));
-  setFact("optimal", clear?.maneuver ? "–" : String(answer.optimal), clear?.maneuver ? "round a fence" : optimalText(answer));
+  if (scene.slot) setFact("optimal", "–");
+  else setFact("optimal", clear?.maneuver ? "–" : String(answer.optimal), clear?.maneuver ? "round a fence" : optimalText(answer));
   setFact("bank-on-circle", bankText(flown));
 }
 

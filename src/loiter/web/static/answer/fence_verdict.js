@@ -30,6 +30,7 @@ export function fenceText({ fence, clear, requests, units, scene }) {
   const checked = sentenceIn(fence.check.sentence, units);
   if (fence.check.clear) return checked;
   if (fence.refusal) return `${checked} ${fence.refusal}`;
+  if (scene.slot) return `${checked} No clear entry is looked for into a slot.`;
   if (!clear) return `${checked}${requests.clear === "idle" ? "" : " Looking for a clear entry …"}`;
   if (!clear.maneuver) return `${checked} ${clear.sentence}`;
   const later = `joins ${timeDifference(clear.later_s ?? 0, scene)} later`;

@@ -43,7 +43,9 @@ function validText({ residuals, proved_optimal, runner_up, margin_s }, scene) {
   const count = residuals.filter(({ verdict }) => verdict === "holds").length;
   const meaning = proved_optimal
     ? `In still air it is proved that nothing is faster${scene.orbit.turn === "either" ? "" : " in this direction"}.`
-    : "They are necessary conditions, not a proof of optimality.";
+    : scene.slot
+      ? "That no path is in the slot earlier is cross-checked by an independent method."
+      : "They are necessary conditions, not a proof of optimality.";
   const hasRunnerUp = runner_up !== null && margin_s !== null;
   const margin = hasRunnerUp ? ` Runner-up ${runner_up}, ${timeDifference(margin_s, scene)} later.` : "";
   return `All ${count} conditions hold. ${meaning}${margin}`;

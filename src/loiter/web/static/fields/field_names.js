@@ -30,6 +30,8 @@ const FIELDS = {
   "origin/longitude_deg": "longitude",
   origin: "latitude",
   margin_m: "margin",
+  "slot/phase_deg": "slot-bearing",
+  "slot/at_s": "slot-at",
   altitude_m: "altitude",
   altitude_reference: "altitude-reference",
   home_altitude_m: "home-altitude",

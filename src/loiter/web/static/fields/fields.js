@@ -22,6 +22,7 @@ import { choiceField, numberField } from "./input_fields.js";
 import { fenceFields } from "./fence_fields.js";
 import { placeFields } from "./place_fields.js";
 import { sceneFields } from "./scene_fields.js";
+import { slotFields } from "./slot_fields.js";
 
 /**
  * @param {Store} store
@@ -42,6 +43,7 @@ export function createFields(store, actions, camera) {
     }),
     ...altitudeFields(store, actions),
     ...fenceFields(store, actions),
+    ...slotFields(store, actions.changeScene),
   };
   unitsChoice(store, actions);
   markErrors(store, fields, "scene");

@@ -5141,7 +5141,7 @@ function _first_unclear(start, heading, circle, widths, finest) {
 let _, between, close, left, seen, unclear;
 seen = watched(start, heading, circle, widths);
 for (_ of iter(range(slot_check_PASSES))) {
-unclear = np.flatnonzero(lt(add(sliced(seen.time, null, -1, null), sliced(seen.clear, null, -1, null)), sliced(seen.time, 1, null, null)));
+unclear = np.flatnonzero(invert(_excludes(seen)));
 close = item(unclear, le(sub(item(seen.time, add(unclear, 1)), item(seen.time, unclear)), finest));
 if (truth(close.size)) {
 seen = Watched(...iter(list(iter(seen)).map((field) => sliced(field, null, add(item(close, 0), 2), null))));
@@ -5153,7 +5153,7 @@ break;
 between = watched(start, heading, circle, mul(0.5, add(item(seen.width, unclear), item(seen.width, add(unclear, 1)))));
 seen = Watched(...iter(list(iter(zip(seen, between))).map((one) => iter(one)).map(([old, new_]) => np.insert(old, add(unclear, 1), new_))));
 }
-left = np.flatnonzero(lt(add(sliced(seen.time, null, -1, null), sliced(seen.clear, null, -1, null)), sliced(seen.time, 1, null, null)));
+left = np.flatnonzero(invert(_excludes(seen)));
 return (truth(left.size) ? Stop(float(item(seen.width, item(left, 0))), float(item(seen.time, item(left, 0)))) : null);
 }
 
@@ -6201,6 +6201,10 @@ place = div(sub(sub(mul(circle.R, np.exp(mul(new Complex(0.0, 1.0), azimuth))), 
 beyond = sub(np.abs(place), time);
 gap = distance(place, np.angle(div(slot_heading, heading)), time);
 return Watched(width, time, gap, np.maximum(div(gap, CLOSING), mul(0.5, beyond)));
+}
+
+function _excludes(seen) {
+return ge(add(sliced(seen.time, null, -1, null), sliced(seen.clear, null, -1, null)), sliced(seen.time, 1, null, null));
 }
 
 const Watched = struct(class extends Tuple {

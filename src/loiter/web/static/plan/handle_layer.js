@@ -8,10 +8,11 @@
  * @typedef {import("./handles.js").Handle} Handle
  * @typedef {import("./handles.js").Stage} Stage
  */
-import { polyline, setAttributes, svg } from "../shared/dom.js";
+import { polyline, setAttributes, show, svg } from "../shared/dom.js";
 import { makeHandle, placeHandle } from "../shared/draggable.js";
 import { pointAt, positionToScreen } from "../shared/geometry.js";
 import { AIRCRAFT, CENTRE, HEADING, HEADING_HANDLE_PX, radiusHandle } from "./handles.js";
+import { SLOT } from "./slot_layer.js";
 import { WIND, windDial } from "./wind_handle.js";
 
 /** @param {SVGSVGElement} root @param {SVGGElement} layer @param {Store} store @param {Actions} actions */
@@ -20,7 +21,7 @@ export function createHandles(root, layer, store, actions) {
   const lever = svg("path", { class: "lever" });
   const dial = windDial();
   // Later handles lie on top, so that the aircraft can always be reached.
-  const handles = [CENTRE, radiusHandle(), WIND, HEADING, AIRCRAFT].map((handle) => ({
+  const handles = [CENTRE, radiusHandle(), SLOT, WIND, HEADING, AIRCRAFT].map((handle) => ({
     handle,
     group: svg("g", { id: handle.id }, handle.parts),
   }));
@@ -29,8 +30,10 @@ export function createHandles(root, layer, store, actions) {
   store.watch(
     ({ camera, scene, units, radiusBearing_deg }) => [camera, scene, units, radiusBearing_deg],
     ({ scene, units }) => {
-      for (const { handle, group } of handles)
+      for (const { handle, group } of handles) {
+        show(group, handle.isShown?.(scene) ?? true);
         placeHandle(group, handle.position(stage()), handle.value(scene), handle.text(scene, units));
+      }
       rotate(layer, "#aircraft .aeroplane", scene.pose.heading_deg);
       rotate(layer, "#wind .tip", (scene.wind?.from_deg ?? 180) + 180);
       layer.querySelector("#wind")?.classList.toggle("calm", scene.wind === null);

@@ -23,6 +23,7 @@
  * @property {(stage: Stage, right: number, up: number) => Scene} moveBy  the scene after steps of the arrow keys
  * @property {(stage: Stage, point: Point) => number} [bearing]  of the handle of the radius after a drag
  * @property {(stage: Stage) => void} [dragBegins]
+ * @property {(scene: Scene) => boolean} [isShown]  whether the scene has what the handle moves; by default it has
  * @property {(stage: Stage) => Scene} [remove]  the scene without what the handle moves
  * @property {(scene: Scene) => number} value  for assistive software
  * @property {(scene: Scene, units: Units) => string} text  for assistive software
@@ -131,11 +132,17 @@ export const CENTRE = {
   text: (scene, units) => positionText(scene.orbit, scene, units),
 };
 
-/** Where the handle of the radius is. @param {Stage} stage */
-function radiusPoint(stage) {
+/** Where a handle on the circle is; of a tiny circle outside. @param {Stage} stage @param {number} bearing_deg */
+export function pointOnCircle(stage, bearing_deg) {
   const radius_px = Math.abs(stage.scene.orbit.radius_m) * stage.view.scale;
-  return pointAt(centrePoint(stage), stage.radiusBearing_deg, Math.max(LEAST_RADIUS_PX, radius_px));
+  return pointAt(centrePoint(stage), bearing_deg, Math.max(LEAST_RADIUS_PX, radius_px));
 }
+
+/** The bearing of a point from the centre. @param {Stage} stage @param {Point} point */
+export const bearingFromCentre = (stage, point) => bearingBetween(centrePoint(stage), point);
+
+/** Where the handle of the radius is. @param {Stage} stage */
+const radiusPoint = (stage) => pointOnCircle(stage, stage.radiusBearing_deg);
 
 /** Where the handles of aircraft, circle and fence are. @param {Stage} stage */
 export const handlePoints = (stage) => [
@@ -144,6 +151,7 @@ export const handlePoints = (stage) => [
   HEADING.position(stage),
   centrePoint(stage),
   radiusPoint(stage),
+  ...(stage.scene.slot ? [pointOnCircle(stage, stage.scene.slot.phase_deg)] : []),
 ];
 
 /**
@@ -161,7 +169,7 @@ export function radiusHandle() {
     parts: handleParts(20, 12, knob()),
     position: radiusPoint,
     dragBegins: (stage) => (outside_px = Math.max(0, LEAST_RADIUS_PX - radius_px(stage))),
-    bearing: (stage, point) => bearingBetween(centrePoint(stage), point),
+    bearing: bearingFromCentre,
     dragTo: (stage, point) => {
       const [x, y] = centrePoint(stage);
       const pixels = Math.max(1, Math.hypot(point[0] - x, point[1] - y) - outside_px);

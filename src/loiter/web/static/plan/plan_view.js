@@ -23,12 +23,13 @@ import { breachMark, fenceBoxes, fenceLayer } from "./fence_layer.js";
 import { drawMarks } from "./marks.js";
 import { drawBest, drawBlocked, drawOther, placeCallout } from "./paths.js";
 import { raceLayer } from "./race_layer.js";
+import { slotBoxes, slotLayer } from "./slot_layer.js";
 import { dialBox } from "./wind_handle.js";
 
 /** @param {Store} store @param {Actions} actions @param {PlanCamera} camera */
 export function planView(store, actions, camera) {
   const root = byId("plan", SVGSVGElement);
-  const layers = svgLayers("grid", "fence", "circle", "others", "rivals", "blocked", "best", "marks", "wind", "handles");
+  const layers = svgLayers("grid", "fence", "circle", "others", "rivals", "blocked", "best", "slot", "marks", "wind", "handles");
   const { handles, ...below } = layers;
   const ghost = svg("g", { class: "ghost" }, [svg("path", { d: AEROPLANE })]);
   const moving = svg("circle", { class: "moving" });
@@ -53,6 +54,7 @@ export function planView(store, actions, camera) {
   watchHighlight(root, layers.others, callout, store);
   watchGhost(ghost, moving, store);
   raceLayer(layers.rivals, store, actions);
+  slotLayer(root, layers.slot, handles, store);
 }
 
 /** @param {Store} store @param {PlanCamera} camera */
@@ -118,7 +120,7 @@ function drawPaths(layers, state, overlays) {
   fill(layers.blocked, clear?.maneuver ? fastest.map((maneuver) => drawBlocked(view, maneuver)) : []);
   fill(layers.others, others.map((other) => drawOther(view, other, scene)));
   const breaches = breachesOf(state);
-  const marks = drawMarks(view, best, others, scene, [dialBox(stageAt(state)), ...overlays(), ...fenceBoxes(state)], breaches);
+  const marks = drawMarks(view, best, others, scene, [dialBox(stageAt(state)), ...overlays(), ...fenceBoxes(state), ...slotBoxes(stageAt(state))], breaches);
   fill(layers.marks, [...breaches.map(({ point }) => breachMark(point)), ...marks]);
 }
 

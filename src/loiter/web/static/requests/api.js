@@ -48,6 +48,9 @@ export const certificateOf = (scene) => answer(() => engine.certificate(scene));
 /** The map of the reduced plane, computed in small steps, so that the page stays quick. @param {MapQuery} query */
 export const mapOf = (query) => engine.synthesis(query);
 
+/** Where the slot of a scene is at a time. @param {Parameters<typeof engine.slotPose>} question */
+export const slotPoseOf = (...question) => engine.slotPose(...question);
+
 /** Whether the plan of a scene stays clear of its fence. @param {Scene} scene */
 export const fenceCheckOf = (scene) => answer(() => engine.fenceCheck(scene));
 

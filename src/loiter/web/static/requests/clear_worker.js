@@ -1,10 +1,13 @@
 // @ts-check
-/** The worker that searches for clear entries: each message is a scene, each reply its answer or a sentence. */
+/** The worker for what takes long: each message is a scene and what is asked of it, each reply the answer or a sentence. */
 import * as engine from "../kernel/engine.js";
 
-addEventListener("message", ({ data }) => {
+/** @type {Record<string, (scene: any) => unknown>} */
+const ANSWERS = { clear: engine.clearEntry, certificate: engine.certificate };
+
+addEventListener("message", ({ data: { asked, scene } }) => {
   try {
-    postMessage({ answer: engine.clearEntry(data) });
+    postMessage({ answer: ANSWERS[asked](scene) });
   } catch (error) {
     postMessage({ sentence: engine.refusal(error).sentence });
   }

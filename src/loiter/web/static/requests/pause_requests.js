@@ -7,22 +7,35 @@
  * @typedef {import("../state/page_state.js").PageState} PageState
  * @typedef {import("../state/page_state.js").MapOptions} MapOptions
  * @typedef {import("../shared/types.js").Answer} Answer
+ * @typedef {import("../shared/types.js").Proof} Proof
  */
 import { drifts } from "../scene/scene.js";
 import { certificateOf, mapOf } from "./api.js";
+import { workerTask } from "./worker_task.js";
 
-/** A function that checks the plan of the scene. @param {Store} store */
+/**
+ * A function that checks the plan of the scene. The certificate of an entry into a slot takes as long as some frames of
+ * the screen: it is made in a worker.
+ *
+ * @param {Store} store
+ */
 export function certificateRequest(store) {
-  /** @param {PageState} state @returns {Partial<PageState>} */
-  function checked({ scene, faults, requests }) {
+  /** @param {{answer?: Proof, sentence?: string}} found */
+  function show({ answer, sentence }) {
+    const { faults, requests } = store.get();
+    if (answer) store.update({ proof: answer, requests: { ...requests, certificate: "idle" } });
+    else store.update({ faults: { ...faults, certificate: `Not checked: ${sentence}` }, requests: { ...requests, certificate: "failed" } });
+  }
+  const askWorker = workerTask(store, "certificate", show);
+  /** @param {PageState["scene"]} scene */
+  function check(scene) {
     try {
-      return { proof: certificateOf(scene), requests: { ...requests, certificate: "idle" } };
+      show({ answer: certificateOf(scene) });
     } catch (error) {
-      const certificate = `Not checked: ${/** @type {Error} */ (error).message}`;
-      return { faults: { ...faults, certificate }, requests: { ...requests, certificate: "failed" } };
+      show({ sentence: /** @type {Error} */ (error).message });
     }
   }
-  return () => store.update(checked(store.get()));
+  return () => (store.get().scene.slot ? askWorker() : check(store.get().scene));
 }
 
 const CELLS = 280; // along a side: 1.5 pixels each; the curves cover the steps between cells
@@ -57,7 +70,7 @@ function mapOptions(scene, { reduced }) {
   return {
     title: `R = ${Number(radius.toPrecision(3))}, ${turn === "either" ? "either way" : turn}`,
     query: JSON.stringify({ radius, turn, reach: reachFor(radius, reduced), cells: CELLS }),
-    drifts: drifts(scene),
+    drifts: drifts(scene) || scene.slot !== null,
   };
 }
 

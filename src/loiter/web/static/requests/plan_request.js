@@ -38,7 +38,7 @@ function outcome(state) {
       proof: null,
       faults: { ...state.faults, certificate: null },
       fieldErrors: { ...state.fieldErrors, scene: {} },
-      requests: { plan: "idle", certificate: "stale", map: "stale", clear: fence?.check?.clear === false ? "stale" : "idle" },
+      requests: { plan: "idle", certificate: "stale", map: "stale", clear: fence?.check?.clear === false && !state.scene.slot ? "stale" : "idle" },
     };
   } catch (error) {
     return failed(state, /** @type {Error} */ (error));

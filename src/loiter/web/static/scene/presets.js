@@ -47,6 +47,7 @@ export const PRESETS = [
   { name: "Far away", scene: scene([-1200, 500, 20], 80, UAV) },
   { name: "Inside the circle", scene: scene([20, -60, 30], 120, UAV) },
   { name: "Round a fence", scene: { ...scene([-400, 120, 90], 80, UAV), fence: { zones: [MAST, FIELD], margin_m: null } } },
+  { name: "Into a slot", scene: { ...scene([-400, 120, 90], 120, UAV), slot: { phase_deg: 200, at_s: 0 } } },
   { name: "In wind", scene: scene([-400, 120, 90], 120, UAV, { speed_m_s: 8, from_deg: 250 }) },
   { name: "Paper, example 1", scene: scene([4, 4, 90], 1, UNIT) },
   { name: "Paper, example 2", scene: scene([-0.53, 0.31, 90], 1, UNIT) },

@@ -4,7 +4,7 @@
  *
  * @typedef {import("./types.js").Scene} Scene
  * @typedef {import("./types.js").Units} Units
- * @typedef {"length" | "speed" | "degrees" | "direction" | "rate"} Quantity
+ * @typedef {"length" | "speed" | "degrees" | "direction" | "rate" | "time"} Quantity
  */
 
 // The international foot and the knot, exact by definition.
@@ -21,6 +21,7 @@ const SCALES = {
     degrees: { name: "°", size: 1 },
     direction: { name: "°", size: 1 },
     rate: { name: "°/s", size: 1 },
+    time: { name: "s", size: 1 },
   },
   aviation: {
     length: { name: "ft", size: FOOT_M },
@@ -28,6 +29,7 @@ const SCALES = {
     degrees: { name: "°", size: 1 },
     direction: { name: "°", size: 1 },
     rate: { name: "°/s", size: 1 },
+    time: { name: "s", size: 1 },
   },
 };
 
@@ -85,6 +87,10 @@ const ACCEPTED = {
   rate: new Map([
     ["°/s", 1],
     ["deg/s", 1],
+  ]),
+  time: new Map([
+    ["s", 1],
+    ["min", 60],
   ]),
 };
 

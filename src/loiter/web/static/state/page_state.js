@@ -34,7 +34,7 @@
  * @typedef {object} MapOptions  the map that belongs to a plan
  * @property {string} title
  * @property {string} query
- * @property {boolean} drifts  whether air or circle move, so that the map, which is for still air, is not exact
+ * @property {boolean} drifts  whether air or circle move, or the scene has a slot, so that the map does not show the plan
  *
  * @typedef {object} Playback
  * @property {boolean} playing
