@@ -52,7 +52,7 @@ def assert_off(page, reason):
     assert page.locator("#clock").is_disabled()
     assert page.locator("#command").text_content() == page.locator("#python").text_content() == ""
     assert page.locator("#candidates").evaluate("list => list.inert")
-    assert not page.locator(".facts").is_visible()
+    assert not page.locator("#entry-facts").is_visible()
     assert page.locator("#plan .ghost").get_attribute("visibility") == "hidden"
     box = page.locator("#timeline").bounding_box()
     page.mouse.click(box["x"] + box["width"] / 2, box["y"] + 20)
@@ -66,7 +66,7 @@ def assert_on(page):
     assert page.locator("#clock").is_enabled()
     assert not page.locator("#candidates").evaluate("list => list.inert")
     assert page.locator("#refusal").is_hidden()
-    assert page.locator(".facts").is_visible()
+    assert page.locator("#entry-facts").is_visible()
     assert page.locator("main.stale").count() == 0
 
 

@@ -57,12 +57,12 @@ def test_the_help_opens_by_a_key_and_at_each_term(page):
 
 def test_on_a_phone_the_plan_and_two_numbers_are_in_the_first_view(opened):
     page = opened(**PHONE)
-    plan, facts = page.locator("#plan-box").bounding_box(), page.locator(".facts").bounding_box()
+    plan, facts = page.locator("#plan-box").bounding_box(), page.locator("#entry-facts").bounding_box()
     assert plan["y"] + plan["height"] <= facts["y"]
     assert facts["y"] + facts["height"] <= PHONE["viewport"]["height"]
-    assert page.locator(".facts dd:visible").count() == 2
+    assert page.locator("#entry-facts dd:visible").count() == 2
     page.locator("#theory").click()
-    assert page.locator(".facts dd:visible").count() == 6
+    assert page.locator("#entry-facts dd:visible").count() == 6
 
 
 def test_fingers_have_room_and_fields_are_not_enlarged(opened):

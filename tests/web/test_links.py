@@ -32,6 +32,25 @@ SCENE = {
         "margin_m": 12.5,
     },
     "slot": {"phase_deg": 200.5, "at_s": -10},
+    "leg": None,
+}
+LEG = {
+    "exit_to": [600, -20.5],
+    "hold_s": 60,
+    "turns": 1.5,
+    "start_altitude_m": 500,
+    "altitude_m": 0,
+    "climb_rate_m_s": 2.5,
+    "descent_rate_m_s": 1.5,
+}
+LEG_KEYS = {
+    "exit-to": "600,-20.5",
+    "hold": "60",
+    "turns": "1.5",
+    "start-altitude": "500",
+    "to-altitude": "0",
+    "climb-rate": "2.5",
+    "descent-rate": "1.5",
 }
 ALTITUDE = {"altitude_m": 900, "altitude_reference": "home", "home_altitude_m": 700}
 LINKED = {"scene": SCENE, "units": "aviation", "altitude": ALTITUDE, "view": [1, 2, 300]}
@@ -70,6 +89,13 @@ def test_a_link_has_these_keys():
     assert link.startswith("#")
     assert dict(parse_qsl(link.removeprefix("#"))) == KEYS
     assert ("zone", "a mast,out,-150,90.5,60") in parse_qsl(link.removeprefix("#"))
+
+
+def test_a_link_to_a_leg_has_these_keys_and_no_slot():
+    linked = LINKED | {"scene": SCENE | {"slot": None, "leg": LEG}}
+    link = run(f"toLink({json.dumps(linked)})")
+    assert dict(parse_qsl(link.removeprefix("#"))).items() >= LEG_KEYS.items()
+    assert run(f"fromLink({json.dumps(link + '&slot=90')})") == linked
 
 
 def test_a_link_is_read_back_whole():

@@ -121,6 +121,7 @@ def _whole(plan: LegPlan, placed: PlacedProblem) -> dict[str, Any]:
     after = [segment for segment in (hold, leave) if segment["duration_s"] > 0.0]
     whole = {
         "duration_s": plan.duration_s,
+        "join_s": plan.entry.duration_s,
         "length_m": plan.duration_s * plan.entry.aircraft.airspeed_m_s,
         "segments": [*entry["segments"], *after],
         "track": _track(plan),

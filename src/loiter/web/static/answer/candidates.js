@@ -34,7 +34,7 @@ export function candidatesView(store, actions) {
 
 /** @param {PageState} state */
 function rowsOf({ answer, scene }) {
-  if (!answer) return [];
+  if (!answer || scene.leg) return [];
   const { best, others } = splitAnswer(answer);
   return [
     ...best.map((maneuver) => {

@@ -7,6 +7,7 @@
  * @typedef {import("../shared/types.js").Answer} Answer
  * @typedef {import("../shared/types.js").Maneuver} Maneuver
  * @typedef {import("../shared/types.js").Scene} Scene
+ * @typedef {import("../shared/types.js").Segment} Segment
  */
 import { byId, fill, part } from "../shared/dom.js";
 import { DIRECTIONS, DIRECTION_ARROWS, splitAnswer, wordLabel } from "../shared/maneuver.js";
@@ -18,16 +19,16 @@ const TIE_S = 1e-9; // durations closer than this count as ties
 
 /** @param {Store} store */
 export function factsView(store) {
-  store.watch((state) => [state.answer, state.clear, state.failure, countdownOf(state)], drawHeadline);
+  store.watch((state) => [state.answer, state.clear, state.leg, state.failure, countdownOf(state)], drawHeadline);
   store.watch(({ answer, clear, units }) => [answer, clear, units], drawFacts);
   // For screen readers, only when a drag pauses.
   store.watch(
-    ({ announced, clear }) => [announced, clear],
+    ({ announced, clear, leg }) => [announced, clear, leg],
     (state) => state.announced && (byId("spoken", HTMLElement).textContent = `${instructionOf(state)} ${fenceText(state)}`.trim()),
   );
 }
 
-const DOING = { L: "Turn left", S: "Fly straight", R: "Turn right" };
+const DOING = { L: "turn left", S: "fly straight", R: "turn right" };
 
 /**
  * What the ghost does and until when, while the plan is played or its time is moved; nothing at its start.
@@ -39,13 +40,17 @@ function countdownOf(state) {
   const { playing, time_s } = state.playback;
   if (!answer || !(playing || time_s > 0)) return "";
   const hold = `hold ${DIRECTIONS[answer.turn]}`;
+  const end = state.leg ? "at the point" : hold;
   const i = answer.segments.findIndex(({ start_s, duration_s }) => time_s < start_s + duration_s);
-  if (i < 0) return `Hold ${DIRECTIONS[answer.turn]}.`;
-  const { letter, start_s, duration_s } = answer.segments[i];
+  if (i < 0) return `${capitalized(end)}.`;
+  const doing = (/** @type {Segment} */ { name, letter }) => (name === "hold" ? hold : name === "leave" ? "leave straight" : DOING[letter]);
+  const { start_s, duration_s } = answer.segments[i];
   const next = answer.segments[i + 1];
   const left = clockText(start_s + duration_s - time_s, 1);
-  return `${DOING[letter]}, then ${next ? DOING[next.letter].toLowerCase() : hold} in ${left}.`;
+  return `${capitalized(doing(answer.segments[i]))}, then ${next ? doing(next) : end} in ${left}.`;
 }
+
+const capitalized = (/** @type {string} */ text) => text.charAt(0).toUpperCase() + text.slice(1);
 
 /** A text of the library with long times in minutes. @param {string} text */
 const inMinutes = (text) =>
@@ -58,14 +63,14 @@ function drawHeadline(state) {
   const text = failure?.headline ?? (countdownOf(state) || instructionOf(state));
   // What to do, then how to hold, each on lines of its own; a unit stays beside its number.
   const [now, hold] = text.replaceAll(/(\d) (s|min)\b/g, "$1\u00a0$2").split(/(?<=\.) (?=Hold )/);
-  fill(headline, hold ? [now, " ", part("span", { class: "hold" }, [hold + (failure || scene.fence ? "" : tieText(answer))])] : [now]);
+  fill(headline, hold ? [now, " ", part("span", { class: "hold" }, [hold + (failure || scene.fence || scene.leg ? "" : tieText(answer))])] : [now]);
   headline.classList.toggle("bad", failure !== null || (clear !== null && !clear.maneuver));
 }
 
 /** What the pilot does; where no clear entry is found, nothing. @param {PageState} state */
-function instructionOf({ answer, clear }) {
+function instructionOf({ answer, clear, leg }) {
   if (clear && !clear.maneuver) return "No clear entry is found.";
-  return inMinutes(clear?.instruction ?? answer?.instruction ?? "");
+  return inMinutes(leg?.instruction ?? clear?.instruction ?? answer?.instruction ?? "");
 }
 
 /** That the other direction takes the same time, if it does. @param {Answer | null} answer */
@@ -109,7 +114,7 @@ function optimalText(answer) {
 }
 
 /** The bank angles of the hold. @param {Maneuver} maneuver */
-function bankText({ hold }) {
+export function bankText({ hold }) {
   const [least, most] = [fixed(hold.least_bank_deg, 1), fixed(hold.largest_bank_deg, 1)];
   return least === most ? `${most}°` : `${least} to ${most}°`;
 }

@@ -24,11 +24,12 @@ export function fenceVerdict(store) {
 }
 
 /** @param {PageState} state */
-export function fenceText({ fence, clear, requests, units, scene }) {
+export function fenceText({ fence, clear, leg, requests, units, scene }) {
   if (!fence) return "";
   if (!fence.check) return fence.refusal;
   const checked = sentenceIn(fence.check.sentence, units);
   if (fence.check.clear) return checked;
+  if (leg) return `${checked} Another way round is not searched for a leg.`;
   if (fence.refusal) return `${checked} ${fence.refusal}`;
   if (scene.slot) return `${checked} No clear entry is looked for into a slot.`;
   if (!clear) return `${checked}${requests.clear === "idle" ? "" : " Looking for a clear entry …"}`;

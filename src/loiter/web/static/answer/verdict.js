@@ -7,6 +7,7 @@
  * @typedef {import("../shared/types.js").Certificate} Certificate
  * @typedef {import("../shared/types.js").Scene} Scene
  */
+import { legVerdict } from "./leg_view.js";
 import { byId } from "../shared/dom.js";
 import { timeDifference, timeText } from "../shared/units.js";
 
@@ -14,7 +15,7 @@ import { timeDifference, timeText } from "../shared/units.js";
 export function verdictView(store) {
   const verdict = byId("verdict", HTMLElement);
   store.watch(
-    ({ failure, faults, proof, clear }) => [failure, faults.certificate, proof, clear],
+    ({ failure, faults, proof, clear, leg }) => [failure, faults.certificate, proof, clear, leg],
     (state) => {
       const { kind, text } = verdictOf(state);
       // Until the next verdict arrives, the last one stays visible, drawn faintly.
@@ -26,8 +27,9 @@ export function verdictView(store) {
 }
 
 /** @param {PageState} state @returns {{kind: "unchecked" | "waiting" | "valid" | "invalid", text: string}} */
-function verdictOf({ failure, faults, proof, answer, scene, clear }) {
+function verdictOf({ failure, faults, proof, answer, scene, clear, leg }) {
   if (failure) return { kind: "unchecked", text: "–" };
+  if (leg) return { kind: "unchecked", text: legVerdict(leg) };
   if (clear?.maneuver)
     return { kind: "unchecked", text: `Not checked of an entry round a fence. No clear entry takes less than ${timeText(clear.least_s ?? 0, scene)}.` };
   if (faults.certificate) return { kind: "unchecked", text: faults.certificate };

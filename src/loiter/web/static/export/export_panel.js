@@ -11,9 +11,9 @@
 import { refusalOf } from "../fields/field_names.js";
 import { fileOf } from "../requests/api.js";
 import { linkOf } from "../scene/address.js";
-import { byId, html } from "../shared/dom.js";
+import { byId, html, show } from "../shared/dom.js";
 import { currentPlan } from "../state/page_state.js";
-import { FORMATS, altitudeFor, missingFor, savedText } from "./formats.js";
+import { FORMATS, LEG_FORMATS, altitudeFor, missingFor, savedText } from "./formats.js";
 
 const KEPT_MS = 60_000; // an address of a file is kept until the browser has surely read it
 
@@ -54,6 +54,10 @@ export function exportPanel(store, actions, fields) {
     const button = formatButton(format);
     button.addEventListener("click", () => save(format));
     byId("formats", HTMLElement).append(button);
+    store.watch(
+      ({ scene }) => [scene.leg === null],
+      ({ scene }) => show(button, !scene.leg || LEG_FORMATS.includes(format.format)),
+    );
   }
   // Enter in a field, and a tap on a choice, lead to the next one that is missing, and at last to the file.
   const earth = byId("earth", HTMLElement);
@@ -81,7 +85,7 @@ function formatButton({ format, name, use, about }) {
 async function saveFile({ format, kind }, store, actions) {
   const state = store.get();
   const options = { ...state.scene, ...altitudeFor(kind, state.altitude) };
-  const name = `entry.${format}`;
+  const name = `${state.scene.leg ? "leg" : "entry"}.${format}`;
   download(await fileOf(format, options), name);
   actions.say(savedText(name, kind, state));
 }
@@ -98,17 +102,21 @@ const WHERE = { Link: "the address of the page is the link", text: "select the t
 
 /** @param {Store} store @param {Actions} actions */
 export function copyButtons(store, actions) {
-  copyButton("copy-python", "Python", () => currentPlan(store.get())?.python, actions);
-  copyButton("copy-command", "Command", () => currentPlan(store.get())?.command, actions);
+  copyButton("copy-python", "Python", () => textsOf(store.get())?.python, actions);
+  copyButton("copy-command", "Command", () => textsOf(store.get())?.command, actions);
   copyButton("copy-link", "Link", () => linkOf(store.get()), actions);
   store.watch(
     ({ announced }) => [announced],
-    ({ announced }) => {
-      byId("python", HTMLElement).textContent = announced?.python ?? "";
-      byId("command", HTMLElement).textContent = announced?.command ?? "";
+    ({ announced, leg }) => {
+      const texts = announced && (leg ?? announced);
+      byId("python", HTMLElement).textContent = texts?.python ?? "";
+      byId("command", HTMLElement).textContent = texts?.command ?? "";
     },
   );
 }
+
+/** Command and Python of the leg or the plan. @param {import("../state/page_state.js").PageState} state */
+const textsOf = (state) => currentPlan(state) && (state.leg ?? currentPlan(state));
 
 /**
  * @param {string} id

@@ -25,6 +25,9 @@ export const FORMATS = [
   { format: "svg", name: "SVG", use: "picture", kind: "picture" },
 ];
 
+/** The formats of legs. */
+export const LEG_FORMATS = ["kml", "plan", "waypoints"];
+
 /**
  * Sentences for the fields that must be filled in or corrected before a file can be written.
  *
@@ -37,10 +40,19 @@ export function missingFor(kind, { scene, place, altitude }, fields) {
   const needsOrigin = kind === "map" || kind === "mission";
   return {
     ...(needsOrigin && !scene.origin ? missingPlace(place) : {}),
-    ...(kind === "mission" ? missingForMission(altitude) : {}),
+    ...(kind === "mission" ? missingForAltitude(scene, altitude) : {}),
     ...(kind === "picture" ? {} : typos(fields)),
   };
 }
+
+/** @param {PageState["scene"]} scene @param {Altitude} altitude @returns {FieldErrors} */
+function missingForAltitude({ leg }, altitude) {
+  if (!leg) return missingForMission(altitude);
+  return legAltitude(leg) === null ? { "leg-start-altitude": "A mission of a leg needs an altitude." } : {};
+}
+
+/** The altitude of a leg's mission. @param {import("../shared/types.js").Leg} leg */
+const legAltitude = ({ altitude_m, start_altitude_m }) => altitude_m ?? start_altitude_m;
 
 /** @param {PageState["place"]} place @returns {FieldErrors} */
 function missingPlace({ latitude_deg, longitude_deg }) {
@@ -67,6 +79,8 @@ export function altitudeFor(kind, altitude) {
 
 /** The message after a file was saved. @param {string} name @param {Kind} kind @param {PageState} state */
 export function savedText(name, kind, { scene, altitude, units }) {
+  const { leg } = scene;
+  if (leg) return `${name} saved${kind === "mission" ? `: ${altitudeText({ altitude_m: legAltitude(leg) ?? 0, altitude_reference: "msl" }, units)}` : ""}.`;
   if (kind === "mission")
     return `${name} saved: ${altitudeText(missionAltitude(altitude), units)}.${radiusRemark(scene.orbit.radius_m, units)}`;
   const isLost = altitude.altitude_m !== undefined && altitudeFor(kind, altitude).altitude_m === undefined;

@@ -48,7 +48,7 @@ export function sceneOfPlan(text, scene) {
     .map(([latitude_deg, longitude_deg]) => toLocal(origin, { latitude_deg, longitude_deg }));
   return {
     scene: withFence(
-      withPose({ ...withOrbit(scene, { ...circle, turn: signed_m < 0 ? "ccw" : "cw" }), origin, fence: null }, poseOf([home, ...places])),
+      withPose({ ...withOrbit(scene, { ...circle, turn: signed_m < 0 ? "ccw" : "cw" }), origin, fence: null, leg: null }, poseOf([home, ...places])),
       geoFence,
     ),
     altitude: {

@@ -20,6 +20,7 @@ import { needsHome } from "./altitude.js";
 import { pairProblem, parseAngle, parsePair } from "./coordinates.js";
 import { choiceField, numberField } from "./input_fields.js";
 import { fenceFields } from "./fence_fields.js";
+import { legFields } from "./leg_fields.js";
 import { placeFields } from "./place_fields.js";
 import { sceneFields } from "./scene_fields.js";
 import { slotFields } from "./slot_fields.js";
@@ -44,6 +45,10 @@ export function createFields(store, actions, camera) {
     ...altitudeFields(store, actions),
     ...fenceFields(store, actions),
     ...slotFields(store, actions.changeScene),
+    ...legFields(store, (scene, event) => {
+      actions.changeScene(scene, event);
+      camera.keepInView();
+    }),
   };
   unitsChoice(store, actions);
   markErrors(store, fields, "scene");

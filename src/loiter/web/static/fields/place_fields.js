@@ -12,6 +12,7 @@
  * @typedef {(scene: Scene, event: Event, more: Partial<PageState>) => void} Change
  */
 import { withOrbit, withPose } from "../scene/scene.js";
+import { exitOf, withExit } from "../scene/leg.js";
 import { byId } from "../shared/dom.js";
 import { REACH_M, originFor, toLocal, toPlace } from "../shared/earth.js";
 import { powerBelow, tidy } from "../shared/units.js";
@@ -30,6 +31,7 @@ import { nameOf } from "./field_names.js";
 const OBJECTS = {
   "aircraft-place": { get: ({ pose }) => pose, set: withPose },
   "circle-place": { get: ({ orbit }) => orbit, set: withOrbit },
+  "exit-place": { get: exitOf, set: withExit },
 };
 
 const DECIMALS = 6; // 0.1 m

@@ -69,7 +69,9 @@ const CHORD_ERROR_M = 1; // as in `loiter plan --save`
  * @returns {{content: string, type: string}}
  */
 export function file(format, { altitude_m = undefined, altitude_reference = "msl", home_altitude_m, ...scene }) {
-  if (scene.leg) return { content: library.leg_file(placed(scene), scene.leg, `.${format}`), type: "application/octet-stream" };
+  const ending = `.${format}`;
+  const known = library.FILE_FORMATS.find((/** @type {{endings: string[]}} */ { endings }) => endings.includes(ending));
+  if (scene.leg) return { content: library.leg_file(placed(scene), scene.leg, ending), type: known.media_type };
   const { frame } = placed(scene);
   // No clear entry is searched for into a slot.
   const isPlan = !scene.fence || scene.slot || fenceCheck(scene).clear;
@@ -78,13 +80,11 @@ export function file(format, { altitude_m = undefined, altitude_reference = "msl
   library._check_points(maneuver, { spacing_m: null, chord_error_m: CHORD_ERROR_M });
   const datum = library.AltitudeDatum(altitude_reference, home_altitude_m ?? null);
   const altitude = altitude_m === undefined ? null : datum.checked(altitude_m);
-  const ending = `.${format}`;
   // A mission with a loiter alone lets the autopilot choose its way there.
   const isWholePath = ["plan", "waypoints"].includes(format) && (!isPlan || Boolean(scene.slot));
-  const { content, media_type } = library.FILE_FORMATS.find((/** @type {{endings: string[]}} */ { endings }) => endings.includes(ending));
   const autopilot = library.AUTOPILOTS.get("ardupilot");
   const options = library.SaveArguments(maneuver, frame, altitude, datum, null, CHORD_ERROR_M, autopilot, isWholePath);
-  return { content: content(ending, options), type: media_type };
+  return { content: known.content(ending, options), type: known.media_type };
 }
 
 /** @param {Scene} scene */

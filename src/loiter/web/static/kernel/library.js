@@ -2168,7 +2168,7 @@ hold = bit_or(hold, new Map([["start", pose_values(plan.entry.join)], ["end", po
 leave = legs__segment("leave", "S", plan.exit_s, plan.straight_s);
 leave = bit_or(leave, new Map([["start", pose_values(plan.exit)], ["end", pose_values(plan.end)]]));
 after = list(iter([hold, leave])).filter((segment) => gt(item(segment, "duration_s"), 0.0)).map((segment) => segment);
-whole = new Map([["duration_s", plan.duration_s], ["length_m", mul(plan.duration_s, plan.entry.aircraft.airspeed_m_s)], ["segments", [...iter(item(entry, "segments")), ...iter(after)]], ["track", legs__track(plan)]]);
+whole = new Map([["duration_s", plan.duration_s], ["join_s", plan.entry.duration_s], ["length_m", mul(plan.duration_s, plan.entry.aircraft.airspeed_m_s)], ["segments", [...iter(item(entry, "segments")), ...iter(after)]], ["track", legs__track(plan)]]);
 return bit_or(entry, whole);
 }
 

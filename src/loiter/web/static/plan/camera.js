@@ -128,9 +128,10 @@ export function showOpenedScenes(store, camera) {
   );
 }
 
-/** @param {{camera: Camera, scene: Scene, answer: Answer | null}} state */
-function fitState({ camera, scene, answer }) {
-  const contents = contentsOf({ scene, answer }, true);
+/** @param {Pick<PageState, "camera" | "scene" | "answer" | "leg">} state */
+function fitState({ camera, ...state }) {
+  const { scene } = state;
+  const contents = contentsOf(state, true);
   const margins = marginsOf(camera.view);
   const view = fitted(camera.view, contents, margins);
   // The handle of the heading has the same length at every scale; a second step brings it into view.
@@ -153,19 +154,21 @@ function marginsOf({ width, height }) {
 /**
  * Points of everything that a view should show: aircraft, circle, optimal paths, and at first every other candidate.
  *
- * @param {{scene: Scene, answer: Answer | null}} state
+ * @param {Pick<PageState, "scene" | "answer" | "leg">} state
  * @param {boolean} isFirst
  * @returns {Point[]}
  */
-function contentsOf({ scene, answer }, isFirst) {
+function contentsOf({ scene, answer, leg }, isFirst) {
   const { pose, orbit } = scene;
-  const { best, others } = answer ? splitAnswer(answer) : { best: [], others: [] };
+  const { best: fastest, others } = answer ? splitAnswer(answer) : { best: [], others: [] };
+  const best = leg ? [leg.maneuver] : fastest;
   const centres = best.map(({ join_over_ground: centre }) => [centre.centre_east_m, centre.centre_north_m]);
   const r = Math.abs(orbit.radius_m);
   return [
     [pose.east_m, pose.north_m],
+    ...(scene.leg ? [scene.leg.exit_to] : []),
     ...(isFirst ? zonePoints(scene) : []),
-    ...[...best, ...(isFirst ? others : [])].flatMap(({ track }) => track.east_m.map((east, i) => /** @type {Point} */ ([east, track.north_m[i]]))),
+    ...[...best, ...(isFirst && !leg ? others : [])].flatMap(({ track }) => track.east_m.map((east, i) => /** @type {Point} */ ([east, track.north_m[i]]))),
     ...[[orbit.east_m, orbit.north_m], ...centres].flatMap(([east, north]) => [
       /** @type {Point} */ ([east - r, north - r]),
       /** @type {Point} */ ([east + r, north + r]),

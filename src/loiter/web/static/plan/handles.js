@@ -54,12 +54,12 @@ export function stepOf({ view, units }) {
 export const resolutionOf = (view) => 0.1 / view.scale;
 
 /** A position after a drag or a key. @param {Stage} stage @param {Point} point east and north */
-function tidyPosition({ view }, [east, north]) {
+export function tidyPosition({ view }, [east, north]) {
   return { east_m: tidy(east, resolutionOf(view)), north_m: tidy(north, resolutionOf(view)) };
 }
 
 /** @param {Stage} stage @param {{east_m: number, north_m: number}} from @param {number} right @param {number} up */
-function stepped(stage, { east_m, north_m }, right, up) {
+export function stepped(stage, { east_m, north_m }, right, up) {
   return tidyPosition(stage, [east_m + right * stepOf(stage), north_m + up * stepOf(stage)]);
 }
 
@@ -144,9 +144,9 @@ export const bearingFromCentre = (stage, point) => bearingBetween(centrePoint(st
 /** Where the handle of the radius is. @param {Stage} stage */
 const radiusPoint = (stage) => pointOnCircle(stage, stage.radiusBearing_deg);
 
-/** Where the handles of aircraft, circle and fence are. @param {Stage} stage */
+/** Where the handles of aircraft, circle, fence and leg are. @param {Stage} stage */
 export const handlePoints = (stage) => [
-  ...zoneHandles(stage.scene).map(([east, north]) => toScreen(stage.view, east, north)),
+  ...[...zoneHandles(stage.scene), ...(stage.scene.leg ? [stage.scene.leg.exit_to] : [])].map(([east, north]) => toScreen(stage.view, east, north)),
   aircraftPoint(stage),
   HEADING.position(stage),
   centrePoint(stage),

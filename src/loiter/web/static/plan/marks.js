@@ -42,9 +42,9 @@ export function drawMarks(view, best, others, scene, boxes, breaches) {
     ...switchesOf(view, maneuver).map((point) => dot(point, 4.5, "switch")),
     dot(positionToScreen(view, maneuver.join), 6, "join"),
   ]);
-  const joins = flown.map(({ join, duration_s }) => ({
+  const joins = flown.map(({ join, join_s, duration_s }) => ({
     point: positionToScreen(view, join),
-    text: `join ${timeText(duration_s, scene)}`,
+    text: `join ${timeText(join_s ?? duration_s, scene)}`,
     most: Infinity,
   }));
   const peelOffs = flown.flatMap((maneuver) => peelOffLabels(view, maneuver, scene));
@@ -74,7 +74,8 @@ function peelOffLabels(view, maneuver, scene) {
   const { segments, join } = maneuver;
   const point = switchesOf(view, maneuver).at(-1);
   if (!point || isCrowded(point, positionToScreen(view, join), positionToScreen(view, scene.pose))) return [];
-  return [{ point, text: `peel off ${timeText(segments[segments.length - 1].start_s, scene)}`, most: COST.box }];
+  const last = segments[segments.length - 1];
+  return [{ point, text: `${last.name ?? "peel off"} ${timeText(last.start_s, scene)}`, most: COST.box }];
 }
 
 /** The strips with the numbers of the grid. @param {View} view @returns {Box[]} */

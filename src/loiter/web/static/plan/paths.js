@@ -30,7 +30,7 @@ function pointsOf(view, { east_m, north_m }, indices = [...east_m.keys()]) {
 }
 
 /**
- * An optimal path: each segment in the colour of its control, with an arrow.
+ * An optimal path, or a leg: each segment in the colour of its control, with an arrow.
  *
  * @param {View} view
  * @param {Maneuver} maneuver
@@ -40,8 +40,10 @@ export function drawBest(view, maneuver) {
     letter,
     points: pointsOf(view, maneuver.track, indices),
   }));
+  const isLeg = maneuver.join_s !== undefined;
+  const casing = isLeg ? pieces.map(({ points }) => polyline(points)).join("") : polyline(pointsOf(view, maneuver.track));
   return [
-    part("path", { d: polyline(pointsOf(view, maneuver.track)), class: "casing" }),
+    part("path", { d: casing, class: "casing" }),
     ...pieces.map(({ letter, points }) =>
       part("path", { d: polyline(points), class: `piece ${letter}`, "data-letter": letter }),
     ),

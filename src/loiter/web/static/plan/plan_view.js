@@ -20,6 +20,7 @@ import { gestures } from "./gestures.js";
 import { createHandles, stageAt } from "./handle_layer.js";
 import { AEROPLANE } from "./handles.js";
 import { breachMark, fenceBoxes, fenceLayer } from "./fence_layer.js";
+import { exitLayer } from "./exit_layer.js";
 import { drawMarks } from "./marks.js";
 import { drawBest, drawBlocked, drawOther, placeCallout } from "./paths.js";
 import { raceLayer } from "./race_layer.js";
@@ -49,6 +50,7 @@ export function planView(store, actions, camera) {
   zoomButtons(store, camera);
   createHandles(root, handles, store, actions);
   fenceLayer(root, layers.fence, handles, store, actions);
+  exitLayer(root, handles, store, actions, camera);
   watchScene(root, layers, store, () => overlays);
   watchPointed(layers.others, ".other", actions.highlight);
   watchHighlight(root, layers.others, callout, store);
@@ -112,10 +114,12 @@ function drawPaths(layers, state, overlays) {
     scene,
     answer,
     clear,
+    leg,
   } = state;
   if (!answer) return [layers.best, layers.others, layers.blocked, layers.marks].forEach((layer) => fill(layer, []));
-  const { best: fastest, others } = splitAnswer(answer);
-  const best = clear?.maneuver ? [clear.maneuver] : fastest;
+  const { best: fastest, others: slower } = splitAnswer(answer);
+  const [flown, others] = [leg?.maneuver ?? clear?.maneuver, leg ? [] : slower];
+  const best = flown ? [flown] : fastest;
   fill(layers.best, best.flatMap((maneuver) => drawBest(view, maneuver)));
   fill(layers.blocked, clear?.maneuver ? fastest.map((maneuver) => drawBlocked(view, maneuver)) : []);
   fill(layers.others, others.map((other) => drawOther(view, other, scene)));

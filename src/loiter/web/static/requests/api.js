@@ -36,6 +36,9 @@ function answer(compute) {
 /** The plan of a scene, with every other candidate. @param {Scene} scene */
 export const planOf = (scene) => answer(() => engine.plan(scene));
 
+/** The way in, round and out of a scene with a leg. @param {Scene} scene */
+export const legOf = (scene) => answer(() => engine.legPlan(scene));
+
 /** Rounds of the circle after the plan: a track. @param {Scene} scene @param {number} [laps] */
 export const lapOf = (scene, laps) => answer(() => engine.lap(scene, laps));
 

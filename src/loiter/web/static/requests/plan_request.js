@@ -8,7 +8,7 @@
 import { refusalOf } from "../fields/field_names.js";
 import { NO_MESSAGE } from "../state/page_state.js";
 import { zonesOf } from "../scene/fence.js";
-import { Problem, fenceCheckOf, lapOf, planOf, raceOf } from "./api.js";
+import { Problem, fenceCheckOf, lapOf, legOf, planOf, raceOf } from "./api.js";
 
 /**
  * A function that applies changes to the state, with the plan of the scene.
@@ -27,9 +27,12 @@ export function planRequest(store) {
 function outcome(state) {
   try {
     const answer = planOf(state.scene);
+    const leg = state.scene.leg ? legOf(state.scene) : null;
     const fence = fenceOf(state);
+    const isBlocked = fence?.check?.clear === false && !leg && !state.scene.slot;
     return {
       answer,
+      leg,
       fence,
       clear: null,
       lap: null,
@@ -38,7 +41,7 @@ function outcome(state) {
       proof: null,
       faults: { ...state.faults, certificate: null },
       fieldErrors: { ...state.fieldErrors, scene: {} },
-      requests: { plan: "idle", certificate: "stale", map: "stale", clear: fence?.check?.clear === false && !state.scene.slot ? "stale" : "idle" },
+      requests: { plan: "idle", certificate: "stale", map: "stale", clear: isBlocked ? "stale" : "idle" },
     };
   } catch (error) {
     return failed(state, /** @type {Error} */ (error));
@@ -56,7 +59,7 @@ function fenceOf({ scene, units }) {
 }
 
 /** @param {PageState} state @param {Error} error @returns {Partial<PageState>} */
-function failed({ playback, fieldErrors, failure, message, units }, error) {
+function failed({ scene, leg, playback, fieldErrors, failure, message, units }, error) {
   const { sentence, fields } = refusalOf(error, units);
   const fittedRadius_m = error instanceof Problem ? error.fittedRadius_m : null;
   return {
@@ -69,13 +72,14 @@ function failed({ playback, fieldErrors, failure, message, units }, error) {
     fieldErrors: { ...fieldErrors, scene: fields },
     fence: null,
     clear: null,
+    leg: scene.leg && leg,
     requests: { plan: "failed", certificate: "stale", map: "stale", clear: "idle" },
   };
 }
 
 /** The race of a plan, and as many laps after it as the race takes. @param {PageState} state @returns {Partial<PageState>} */
 export function raceRequest({ scene, answer, clear }) {
-  if (!answer) return {};
+  if (!answer || scene.leg) return {};
   const race = raceOf(scene);
   if (clear?.maneuver) return { race, lap: clear.lap };
   const end_s = Math.max(...race.map(({ track }) => track.time_s.at(-1) ?? 0));

@@ -5,6 +5,7 @@
  * @typedef {import("../shared/types.js").Scene} Scene
  * @typedef {import("../shared/types.js").Aircraft} Aircraft
  * @typedef {import("../shared/types.js").Altitude} Altitude
+ * @typedef {import("../shared/types.js").Leg} Leg
  * @typedef {import("../shared/types.js").Limit} Limit
  * @typedef {import("../shared/types.js").Reference} Reference
  * @typedef {import("../shared/types.js").Turn} Turn
@@ -69,7 +70,7 @@ function sceneParts(scene) {
     parts.push(`orbit-velocity=${joined([orbit.velocity_east_m_s, orbit.velocity_north_m_s], speed)}`);
   if (tolerance_m !== 0) parts.push(`tolerance=${tolerance_m}`);
   if (origin) parts.push(`origin=${joined([origin.latitude_deg, origin.longitude_deg], PLACE_DEG)}`);
-  return [...parts, ...fenceParts(scene, length), ...slotParts(scene)];
+  return [...parts, ...fenceParts(scene, length), ...slotParts(scene), ...legParts(scene, length, speed)];
 }
 
 /**
@@ -100,6 +101,32 @@ function slotParts({ slot }) {
   if (!slot) return [];
   const at = slot.at_s === 0 ? [] : [`slot-at=${joined([slot.at_s], TIME_S)}`];
   return [`slot=${joined([slot.phase_deg], ANGLE_DEG)}`, ...at];
+}
+
+/** The numbers of a leg in a link, beside the point: their keys and names, and how they are rounded. @type {[string, Exclude<keyof Leg, "exit_to">, "seconds" | "speed" | "altitude"][]} */
+const LEG_KEYS = [
+  ["hold", "hold_s", "seconds"],
+  ["turns", "turns", "seconds"],
+  ["start-altitude", "start_altitude_m", "altitude"],
+  ["to-altitude", "altitude_m", "altitude"],
+  ["climb-rate", "climb_rate_m_s", "speed"],
+  ["descent-rate", "descent_rate_m_s", "speed"],
+];
+
+/** @param {Scene} scene @param {number} length resolution @param {number} speed resolution */
+function legParts({ leg }, length, speed) {
+  if (!leg) return [];
+  const resolutions = { seconds: 1e-6, speed, altitude: ALTITUDE_M };
+  const numbers = LEG_KEYS.flatMap(([key, name, kind]) => (leg[name] === null || (leg[name] === 0 && kind === "seconds") ? [] : [`${key}=${joined([leg[name]], resolutions[kind])}`]));
+  return [`exit-to=${joined(leg.exit_to, length)}`, ...numbers];
+}
+
+/** @param {URLSearchParams} parameters @returns {Leg | null} */
+function legOf(parameters) {
+  if (!parameters.has("exit-to")) return null;
+  const [east, north] = numbers(parameters, "exit-to", 2);
+  const values = LEG_KEYS.map(([key, name, kind]) => [name, parameters.has(key) ? numbers(parameters, key, 1)[0] : kind === "seconds" ? 0 : null]);
+  return { exit_to: [east, north], ...Object.fromEntries(values) };
 }
 
 /** @param {Altitude} altitude */
@@ -138,7 +165,8 @@ function sceneOf(parameters) {
     tolerance_m: numbers(parameters, "tolerance", 1, [0])[0],
     origin: parameters.has("origin") ? originOf(numbers(parameters, "origin", 2)) : null,
     fence: fenceOf(parameters),
-    slot: slotOf(parameters),
+    slot: parameters.has("exit-to") ? null : slotOf(parameters),
+    leg: legOf(parameters),
   };
   const [speed_m_s, from_deg] = numbers(parameters, "wind", 2, [0, 0]);
   return withWind(scene, { speed_m_s, from_deg });

@@ -13,6 +13,8 @@ const UAV = { airspeed_m_s: 18, max_bank_deg: 35 };
 const MAST = { name: "mast", east_m: -150, north_m: 90, radius_m: 60, inclusion: false };
 /** @type {import("../shared/types.js").Zone} */
 const FIELD = { name: "field", corners: [[-500, -150], [150, -150], [150, 250], [-500, 250]], inclusion: true };
+/** @type {import("../shared/types.js").Leg} */
+const CLIMB = { exit_to: [600, 0], hold_s: 0, turns: 0, start_altitude_m: 500, altitude_m: 700, climb_rate_m_s: 2.5, descent_rate_m_s: null };
 const UNIT = { airspeed_m_s: 1, min_turn_radius_m: 1 };
 
 /**
@@ -32,6 +34,7 @@ function scene([east_m, north_m, heading_deg], radius_m, aircraft, wind = null) 
     origin: null,
     fence: null,
     slot: null,
+    leg: null,
   };
 }
 
@@ -48,6 +51,7 @@ export const PRESETS = [
   { name: "Inside the circle", scene: scene([20, -60, 30], 120, UAV) },
   { name: "Round a fence", scene: { ...scene([-400, 120, 90], 80, UAV), fence: { zones: [MAST, FIELD], margin_m: null } } },
   { name: "Into a slot", scene: { ...scene([-400, 120, 90], 120, UAV), slot: { phase_deg: 200, at_s: 0 } } },
+  { name: "Climb and leave", scene: { ...scene([-400, 120, 90], 120, UAV), leg: CLIMB } },
   { name: "In wind", scene: scene([-400, 120, 90], 120, UAV, { speed_m_s: 8, from_deg: 250 }) },
   { name: "Paper, example 1", scene: scene([4, 4, 90], 1, UNIT) },
   { name: "Paper, example 2", scene: scene([-0.53, 0.31, 90], 1, UNIT) },

@@ -6,8 +6,8 @@
  * @typedef {import("../shared/types.js").Slot} Slot
  */
 
-/** A scene with another place of its slot, which it then has. @param {Scene} scene @param {Partial<Slot>} slot @returns {Scene} */
-export const withSlot = (scene, slot) => ({ ...scene, slot: { phase_deg: 0, at_s: 0, ...scene.slot, ...slot } });
+/** A scene with another place of its slot, which it then has, and no leg. @param {Scene} scene @param {Partial<Slot>} slot @returns {Scene} */
+export const withSlot = (scene, slot) => ({ ...scene, leg: null, slot: { phase_deg: 0, at_s: 0, ...scene.slot, ...slot } });
 
 /** A scene without a slot. @param {Scene} scene @returns {Scene} */
 export const withoutSlot = (scene) => ({ ...scene, slot: null });

@@ -91,8 +91,10 @@ export function stateAt(track, time) {
   return { ...poseAt(track, time), x: read(track.x), y: read(track.y) };
 }
 
+const TURN_SAMPLES = 121; // of the first turn of a hold, whose other turns are flown over the same ground
+
 /**
- * The indices of the samples of each segment, both ends included.
+ * The indices of the samples of each segment, both ends included, and of a hold those of one turn.
  *
  * @param {Maneuver} maneuver
  * @returns {{letter: Letter, indices: number[]}[]}
@@ -101,9 +103,10 @@ export function piecesOf(maneuver) {
   const times = maneuver.track.time_s;
   // Times of samples and of switches are sums of the same durations; they differ by rounding only.
   const near = 1e-9 * (1 + maneuver.duration_s);
-  return maneuver.segments.map(({ letter, start_s, duration_s }) => {
+  return maneuver.segments.map(({ letter, name, start_s, duration_s }) => {
     const end_s = start_s + duration_s;
-    return { letter, indices: times.flatMap((t, i) => (t >= start_s - near && t <= end_s + near ? [i] : [])) };
+    const indices = times.flatMap((t, i) => (t >= start_s - near && t <= end_s + near ? [i] : []));
+    return { letter, indices: name === "hold" ? indices.slice(0, TURN_SAMPLES) : indices };
   });
 }
 

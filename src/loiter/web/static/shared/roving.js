@@ -21,7 +21,8 @@ const MOVES = {
  * @param {HTMLElement} group
  */
 export function roving(group) {
-  const buttons = () => Array.from(group.querySelectorAll(/** @type {"button"} */ ("button, input")));
+  const buttons = () =>
+    Array.from(group.querySelectorAll(/** @type {"button"} */ ("button, input"))).filter((button) => !button.closest("[hidden]"));
   const indexOf = (/** @type {EventTarget | null} */ target) => buttons().findIndex((button) => button === target);
   let current = Math.max(
     0,
@@ -45,6 +46,7 @@ export function roving(group) {
     buttons()[move(index, count)].focus();
     event.preventDefault();
   });
+  new MutationObserver(mark).observe(group, { subtree: true, attributeFilter: ["hidden"] });
   mark();
   return mark;
 }

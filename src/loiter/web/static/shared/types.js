@@ -27,8 +27,8 @@
  * @property {number} tolerance_m
  * @property {Origin | null} origin
  * @property {Fence | null} fence
- * @property {Leg | null} [leg]
  * @property {Slot | null} slot
+ * @property {Leg | null} leg
  *
  * @typedef {{phase_deg: number, at_s: number}} Slot  a place on the circle that moves with the hold: its bearing from the
  *   centre at a time
@@ -113,6 +113,7 @@
  *
  * @typedef {object} Maneuver
  * @property {number} duration_s
+ * @property {number} [join_s]  of a leg, whose duration is that to its point
  * @property {number} length_m
  * @property {string} word
  * @property {Direction} turn

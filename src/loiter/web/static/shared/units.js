@@ -4,7 +4,7 @@
  *
  * @typedef {import("./types.js").Scene} Scene
  * @typedef {import("./types.js").Units} Units
- * @typedef {"length" | "speed" | "degrees" | "direction" | "rate" | "time"} Quantity
+ * @typedef {"length" | "speed" | "degrees" | "direction" | "rate" | "climb" | "time" | "count"} Quantity
  */
 
 // The international foot and the knot, exact by definition.
@@ -21,7 +21,9 @@ const SCALES = {
     degrees: { name: "°", size: 1 },
     direction: { name: "°", size: 1 },
     rate: { name: "°/s", size: 1 },
+    climb: { name: "m/s", size: 1 },
     time: { name: "s", size: 1 },
+    count: { name: "", size: 1 },
   },
   aviation: {
     length: { name: "ft", size: FOOT_M },
@@ -29,7 +31,9 @@ const SCALES = {
     degrees: { name: "°", size: 1 },
     direction: { name: "°", size: 1 },
     rate: { name: "°/s", size: 1 },
+    climb: { name: "ft/min", size: FOOT_M / 60 },
     time: { name: "s", size: 1 },
+    count: { name: "", size: 1 },
   },
 };
 
@@ -88,9 +92,18 @@ const ACCEPTED = {
     ["°/s", 1],
     ["deg/s", 1],
   ]),
+  climb: new Map([
+    ["m/s", 1],
+    ["ft/min", FOOT_M / 60],
+    ["fpm", FOOT_M / 60],
+  ]),
   time: new Map([
     ["s", 1],
     ["min", 60],
+  ]),
+  count: new Map([
+    ["turn", 1],
+    ["turns", 1],
   ]),
 };
 

@@ -50,7 +50,7 @@ export function createActions(store, requests, latency) {
       requests.askPlan({
         ...stepOf(),
         ...changes,
-        answer: null, // of another scene
+        ...{ answer: null, leg: null }, // of another scene
         message: NO_MESSAGE,
         opening: { revision: revision + 1, span },
         playback: { ...playback, playing: false, time_s: 0 },
@@ -87,7 +87,7 @@ export function createActions(store, requests, latency) {
     play(playing) {
       const { time_s } = store.get().playback;
       const { scene, lap, clear } = store.get();
-      if (playing && !lap) store.update({ lap: clear?.maneuver ? clear.lap : lapOf(scene) });
+      if (playing && !lap && !scene.leg) store.update({ lap: clear?.maneuver ? clear.lap : lapOf(scene) });
       setPlayback({ playing, time_s: playing && time_s >= endOf(store.get()) ? 0 : time_s });
     },
     /** Begin or end the race with other guidance laws. @param {boolean} racing */

@@ -66,6 +66,7 @@
  * @property {{check: FenceCheck | null, refusal: string} | null} fence  whether the plan stays clear of the scene's
  *   fence, or why that is not known
  * @property {import("../shared/types.js").ClearEntry | null} clear  the search for a clear entry, where the plan is not
+ * @property {import("../shared/types.js").LegPlan | null} leg  the leg of the scene, if it has one
  * @property {Failure | null} failure
  * @property {Answer | null} announced  the plan of the last pause: its text is read out and can be copied
  * @property {Proof | null} proof  the certificate of the plan
@@ -109,6 +110,7 @@ export const INITIAL_STATE = {
   race: null,
   fence: null,
   clear: null,
+  leg: null,
   failure: null,
   announced: null,
   proof: null,
@@ -125,8 +127,11 @@ export const INITIAL_STATE = {
 /** The plan of the present scene, or null while there is none. @param {PageState} state */
 export const currentPlan = ({ requests, answer }) => (requests.plan === "idle" ? answer : null);
 
-/** What is flown: the newest plan or, where that is not clear of the fence, the clear entry. @param {PageState} state */
-export const flownOf = ({ answer, clear }) => answer && (clear?.maneuver ?? answer);
+/** What is flown: the leg, or the newest plan or, where that is not clear of the fence, the clear entry. @param {PageState} state */
+export const flownOf = ({ answer, clear, leg }) => answer && (leg?.maneuver ?? clear?.maneuver ?? answer);
+
+/** Whether the plan is flown, which the certificate is of: no leg, and no entry round a fence. @param {PageState} state */
+export const isPlanFlown = ({ clear, leg }) => !leg && !clear?.maneuver;
 
 /** The duration of what is flown, seconds. @param {PageState} state */
 export const durationOf = (state) => flownOf(state)?.duration_s ?? 0;

@@ -46,16 +46,16 @@ export function timeScale(width, duration_s, theory) {
 
 /** Bars of the control. @param {Segment[]} segments @param {TimeScale} scale */
 export function drawControls(segments, { x }) {
-  return segments.flatMap(({ letter, start_s, duration_s }) => drawBar(letter, x(start_s), x(start_s + duration_s)));
+  return segments.flatMap(({ letter, name, start_s, duration_s }) => drawBar(letter, x(start_s), x(start_s + duration_s), name));
 }
 
-/** @param {Letter} letter @param {number} from @param {number} to */
-function drawBar(letter, from, to) {
+/** @param {Letter} letter @param {number} from @param {number} to @param {string} [name] */
+function drawBar(letter, from, to, name = CONTROLS[letter]) {
   const width = to - from;
   const box = { x: from, y: STRIP.top, width: Math.max(0.5, width), height: STRIP.height };
   const bar = part("rect", { ...box, class: `bar ${letter}` });
   if (width < LEAST_WIDTH.letter) return [bar];
-  const text = width < LEAST_WIDTH.word ? letter : CONTROLS[letter];
+  const text = width < LEAST_WIDTH.word ? letter : name;
   const middle = { x: (from + to) / 2, y: STRIP.top + 15.5, "text-anchor": "middle" };
   return [bar, part("text", { ...middle, class: "barname" }, [text])];
 }

@@ -9,7 +9,7 @@
  */
 import { byId, fill, observeSize, setAttributes, setSize, show, svg, svgLayers } from "../shared/dom.js";
 import { pointOf } from "../shared/draggable.js";
-import { durationOf, flownOf, shownTime } from "../state/page_state.js";
+import { durationOf, flownOf, isPlanFlown, shownTime } from "../state/page_state.js";
 import { drawAxis, drawControls, drawReadings, drawSeries, drawSwitches, heightOf, timeScale } from "./bands.js";
 
 const LEAST_WIDTH_PX = 260;
@@ -24,10 +24,10 @@ export function timelineView(store, actions) {
     store.update({ timelineWidth: Math.max(LEAST_WIDTH_PX, boxWidth) });
   });
   store.watch(
-    ({ timelineWidth, theory }) => [timelineWidth, theory],
-    ({ timelineWidth, theory }) => {
-      setSize(root, timelineWidth, heightOf(theory));
-      root.classList.toggle("plain", !theory);
+    (state) => [state.timelineWidth, showsTheory(state)],
+    (state) => {
+      setSize(root, state.timelineWidth, heightOf(showsTheory(state)));
+      root.classList.toggle("plain", !showsTheory(state));
     },
   );
   watchPlan(root, below, store);
@@ -35,8 +35,11 @@ export function timelineView(store, actions) {
   seekWithPointer(root, store, actions);
 }
 
+/** Whether the bands of the certificate are shown. @param {import("../state/page_state.js").PageState} state */
+const showsTheory = ({ theory, leg }) => theory && !leg;
+
 /** @param {Store} store */
-const scaleNow = (store) => timeScale(store.get().timelineWidth, durationOf(store.get()), store.get().theory);
+const scaleNow = (store) => timeScale(store.get().timelineWidth, durationOf(store.get()), showsTheory(store.get()));
 
 /**
  * @param {SVGSVGElement} root
@@ -54,10 +57,11 @@ function watchPlan(root, { back, strip, lines, ticks }, store) {
     },
   );
   store.watch(
-    ({ proof, clear, timelineWidth }) => [proof, clear, timelineWidth],
-    ({ proof, clear }) => {
-      // The certificate is that of the plan, not of the entry round a fence.
-      if (clear?.maneuver) return [back, lines].forEach((layer) => fill(layer, []));
+    ({ proof, clear, leg, timelineWidth }) => [proof, clear, leg, timelineWidth],
+    (state) => {
+      const { proof } = state;
+      // The certificate is that of the plan, not of the entry round a fence or the leg.
+      if (!isPlanFlown(state)) return [back, lines].forEach((layer) => fill(layer, []));
       // The lines of the previous certificate stay visible, drawn faintly.
       root.classList.toggle("unproved", proof === null);
       if (!proof) return;
@@ -75,7 +79,7 @@ function watchTime(cursor, reads, store) {
     (state) => {
       const time = shownTime(state);
       setAttributes(cursor, { d: `M${scaleNow(store).x(time).toFixed(1)} 0V${scaleNow(store).axis - 10}` });
-      const isProved = state.proof !== null && !state.clear?.maneuver;
+      const isProved = state.proof !== null && isPlanFlown(state);
       show(reads, isProved);
       if (isProved && state.proof) fill(reads, drawReadings(state.proof, time, scaleNow(store)));
     },

@@ -1,0 +1,50 @@
+// @ts-check
+/**
+ * What the page says of a leg: its numbers in place of those of the entry, and what holds for it.
+ *
+ * @typedef {import("../state/store.js").Store} Store
+ * @typedef {import("../state/page_state.js").PageState} PageState
+ * @typedef {import("../shared/types.js").LegPlan} LegPlan
+ */
+import { byId, fill, part, show } from "../shared/dom.js";
+import { DIRECTIONS, wordLabel } from "../shared/maneuver.js";
+import { fixed, timeText } from "../shared/units.js";
+import { bankText } from "./facts.js";
+
+/** @param {Store} store */
+export function legView(store) {
+  const list = byId("leg-facts", HTMLElement);
+  store.watch(
+    ({ leg, scene }) => [leg, scene.leg === null],
+    (state) => {
+      const { leg, scene } = state;
+      show(list, scene.leg !== null);
+      show(byId("entry-facts", HTMLElement), scene.leg === null);
+      show(byId("entries-note", HTMLElement), scene.leg !== null);
+      show(byId("race", HTMLElement), scene.leg === null);
+      if (leg) fill(list, factsOf(leg, state));
+    },
+  );
+}
+
+/** @param {LegPlan} leg @param {PageState} state */
+function factsOf({ maneuver, duration_s, join_s, held_s, held_deg, exit_s }, { scene }) {
+  /** @type {[string, (string | ReturnType<typeof part>)[], string][]} */
+  const facts = [
+    ["Time at the point", [timeText(duration_s, scene)], ""],
+    ["Leave", [timeText(exit_s, scene)], ""],
+    ["Hold", [timeText(held_s, scene)], `${fixed(held_deg / 360, 2)} turns`],
+    ["Join", [timeText(join_s, scene)], ""],
+    ["Word", [wordLabel(maneuver.word)], DIRECTIONS[maneuver.turn]],
+    ["Bank to hold", [bankText(maneuver)], ""],
+  ];
+  return facts.map(([name, value, note]) =>
+    part("div", {}, [part("dt", {}, [name]), part("dd", {}, [...value, ...(note ? [part("small", {}, [note])] : [])])]),
+  );
+}
+
+/** What holds for a leg. @param {LegPlan} leg */
+export const legVerdict = ({ is_least }) =>
+  is_least
+    ? "Not checked for a leg. Its way in is the first path to where the hold begins: to join earlier is never sooner at the point."
+    : "Not checked for a leg. No path found ends just when the altitude is reached: this is the soonest by first paths, and something could be sooner.";
