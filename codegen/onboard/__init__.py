@@ -32,6 +32,25 @@ from loiter.version import __version__
 
 FOLDER = ROOT / "onboard" / "c"
 
+# The statuses that the C returns, and what they say there.
+STATUSES = {
+    Status.OK: "There is an answer.",
+    Status.NOT_FINITE: "A number of the problem is nan or infinite.",
+    Status.RADIUS_TOO_SMALL: "The circle is below the least turn radius, airspeed^2 / (9.80665 * tan(bank limit)).",
+    Status.OUT_OF_RANGE: "The position or the radius is beyond 2^23 turn radii in single precision, 2^52 in double.",
+    Status.BAD_TOLERANCE: "The tolerance is negative, or beyond the same bounds.",
+    Status.BAD_AIRCRAFT: "The airspeed is not within 0 to 1000 m/s, or the bank limit not within 0 to 90 degrees.",
+    Status.BAD_ORBIT: "The radius is not a positive, finite number.",
+    Status.BAD_TURN: "The side is none of LOITER_CW, LOITER_CCW and LOITER_EITHER.",
+    Status.BAD_POSE: "(c, s) of the problem is not a unit vector.",
+    Status.WIND_TOO_STRONG: "The wind is as fast as the aircraft, or faster.",
+    Status.NOT_HELD: (
+        "The circle is too tight for this wind: (airspeed + wind)^2 / (9.80665 * tan(bank limit)) exceeds its radius."
+    ),
+    Status.NOT_CONVERGED: "The search found no entry that ends on the circle.",
+    Status.BAD_WIND: "The wind is nan or infinite.",
+}
+
 # In the law the kernel's functions stand in for machine code that Python calls.
 # Its rings are apart from its memory, which is passed by value in places: within it a step would take 16.9 kB of stack.
 ARITHMETIC = ONBOARD._replace(
@@ -208,7 +227,9 @@ def law_unit() -> tuple[OnboardUnit, dict[str, str]]:
     of_law = [line for kind in exported if kind not in search for line in declared(kind, True)]
     return unit, {
         **unit.parts(),
-        "STATUSES": "\n".join(f"    LOITER_{status.name} = {int(status)}," for status in Status),
+        "STATUSES": "\n".join(
+            f"    /* {text} */\n    LOITER_{status.name} = {int(status)}," for status, text in STATUSES.items()
+        ),
         "SEARCH": "\n".join(line for kind in search for line in declared(kind, True)),
         "STRUCTURES": "\n".join([*of_law, f"typedef struct {{ {rings} }} loiter_Rings;"]),
         "TYPEDEFS": "typedef loiter_Rings Rings;",

@@ -21,7 +21,8 @@
 extern "C" {
 #endif
 
-/* Single precision with -DLOITER_FLOAT, which the program that includes this file needs too; otherwise double. */
+/* Single precision with -DLOITER_FLOAT; otherwise double. Every file that includes this one needs the same, and no
+ * compiler says that one has the other. */
 #ifdef LOITER_FLOAT
 typedef float loiter_real;
 typedef int32_t loiter_integer;
@@ -32,33 +33,45 @@ typedef int64_t loiter_integer;
 
 /* Statuses. LOITER_OK is 0; all others say why there is no answer. */
 enum {
+    /* There is an answer. */
     LOITER_OK = 0,
+    /* A number of the problem is nan or infinite. */
     LOITER_NOT_FINITE = 1,
+    /* The circle is below the least turn radius, airspeed^2 / (9.80665 * tan(bank limit)). */
     LOITER_RADIUS_TOO_SMALL = 2,
+    /* The position or the radius is beyond 2^23 turn radii in single precision, 2^52 in double. */
     LOITER_OUT_OF_RANGE = 3,
+    /* The tolerance is negative, or beyond the same bounds. */
     LOITER_BAD_TOLERANCE = 4,
+    /* The airspeed is not within 0 to 1000 m/s, or the bank limit not within 0 to 90 degrees. */
     LOITER_BAD_AIRCRAFT = 5,
+    /* The radius is not a positive, finite number. */
     LOITER_BAD_ORBIT = 6,
+    /* The side is none of LOITER_CW, LOITER_CCW and LOITER_EITHER. */
     LOITER_BAD_TURN = 7,
+    /* (c, s) of the problem is not a unit vector. */
     LOITER_BAD_POSE = 8,
-    LOITER_MALFORMED = 9,
+    /* The wind is as fast as the aircraft, or faster. */
     LOITER_WIND_TOO_STRONG = 10,
+    /* The circle is too tight for this wind: (airspeed + wind)^2 / (9.80665 * tan(bank limit)) exceeds its radius. */
     LOITER_NOT_HELD = 11,
+    /* The search found no entry that ends on the circle. */
     LOITER_NOT_CONVERGED = 12,
+    /* The wind is nan or infinite. */
     LOITER_BAD_WIND = 13,
-    LOITER_BAD_SLOT = 14,
     /* `dt_s` of a step is not a positive, finite number. */
     LOITER_BAD_STEP = 14,
-    /* Roll response, delay, reserve, smoothing or gain is what no aircraft has. */
+    /* The roll response, delay, reserve, smoothing, gain or search_steps is negative or out of range. */
     LOITER_BAD_RESPONSE = 15,
-    /* A search is not complete yet. */
+    /* A search is not complete yet: continue it in the next cycle. */
     LOITER_SEARCHING = 16
 };
 
 /* The direction in which the circle is flown, seen from above. */
 enum { LOITER_CW = 1, LOITER_CCW = -1, LOITER_EITHER = 0 };
 
-/* What a command, or a piece of an entry, does. */
+/* What a command, or a piece of an entry, does. LOITER_RIGHT is negative, though a bank to the right is positive:
+ * compare with these names, not with signs. */
 enum { LOITER_RIGHT = -1, LOITER_STRAIGHT = 0, LOITER_LEFT = 1, LOITER_HOLD = 2, LOITER_NO_DATA = 3 };
 
 /* ---- The fastest entry ------------------------------------------------------------------------------------------ */
@@ -76,7 +89,7 @@ typedef struct {
 } loiter_problem;
 
 /* An entry: the side of its circle, the number of its pieces, at most 3, and their controls (LOITER_LEFT and so on) and
- * durations. */
+ * durations, in turn radii over airspeed. */
 typedef struct {
     int side, pieces, controls[3];
     loiter_real durations[3];
@@ -122,37 +135,45 @@ int loiter_search_step(loiter_search *search, int steps, loiter_entry *entry);
 /* What a law is made for.
  *
  * Everything is relative to the centre of the circle. Where that moves, its velocity is to be subtracted from all
- * velocities over the ground, and from the wind. The wind is a velocity towards the east and the north; 0 where none is
- * known. The roll response is a first-order lag with a limited rate; the delay is that between a command and the first
- * measurement that shows it. A step of the law takes at most `search_steps` steps of a search in wind, and the next
- * steps continue it; with 0 it makes whole searches. */
+ * velocities over the ground, and from the wind. */
 typedef struct {
     loiter_real radius_m;
-    int side;
+    int side; /* LOITER_CW, LOITER_CCW or LOITER_EITHER */
+    /* The true airspeed at cruise, and the largest bank of a command, of any turn, also on the circle. */
     loiter_real airspeed_m_s, bank_limit_deg;
+    /* The roll response, a first-order lag with a limited rate, and the delay between a command and the first
+     * measurement that shows it. */
     loiter_real roll_time_s, roll_rate_deg_s, delay_s;
+    /* The velocity of the air towards the east and the north: positive east for a wind from the west. 0 where none is
+     * known. */
     loiter_real wind_east_m_s, wind_north_m_s;
+    /* For experiments; leave the defaults. By which share planned turns are wider than the tightest, the shortest
+     * averaging time of measurements, and the gain of course corrections, without a unit. */
     loiter_real reserve, smoothing_s, gain;
+    /* The steps of a search in wind that a step of the law takes at most; the next steps continue it. With 0 it makes
+     * whole searches. */
     int search_steps;
 } loiter_law_config;
 
-/* A measurement: a time stamp in microseconds that may wrap around, the position from the circle's centre, metres, at
- * most some 20 km, heading of the nose (compass degrees), bank (degrees, positive to the right), velocity relative to
- * the circle's centre, and true airspeed. */
+/* A measurement; every field is needed. */
 typedef struct {
-    uint32_t time_us;
-    loiter_real east_m, north_m, heading_deg, bank_deg, velocity_east_m_s, velocity_north_m_s, airspeed_m_s;
+    uint32_t time_us;                                    /* may wrap around */
+    loiter_real east_m, north_m;                         /* from the circle's centre, at most some 20 km */
+    loiter_real heading_deg;                             /* of the nose: 0 is north, 90 east; any range */
+    loiter_real bank_deg;                                /* positive to the right */
+    loiter_real velocity_east_m_s, velocity_north_m_s;   /* over the ground, less the velocity of the circle's centre */
+    loiter_real airspeed_m_s;                            /* true airspeed */
 } loiter_measurement;
 
-/* A command: turn rate and bank (positive to the right), what it does (LOITER_LEFT and so on, LOITER_NO_DATA where there
- * is no usable measurement), the time until the circle is joined, the side of the circle, 0 before it is known, what
- * comes next, and when. Times are nan where there is no data. */
+/* A command. Times are nan where the phase is LOITER_NO_DATA: there is no usable measurement, or the first search is
+ * not complete. */
 typedef struct {
-    loiter_real turn_rate_deg_s, bank_deg;
-    int phase;
-    loiter_real time_to_join_s;
-    int side, next_phase;
-    loiter_real next_in_s;
+    loiter_real turn_rate_deg_s, bank_deg; /* positive to the right; fly the bank */
+    int phase;                             /* LOITER_RIGHT, STRAIGHT, LEFT, HOLD or NO_DATA */
+    loiter_real time_to_join_s;            /* 0 on the circle */
+    int side;                              /* LOITER_CW or LOITER_CCW, 0 before it is known */
+    int next_phase;
+    loiter_real next_in_s;                 /* infinite on the circle */
 } loiter_command;
 
 /* The structures of which the state of the law consists. No program needs to read them. */
@@ -219,7 +240,7 @@ typedef struct {
     uint32_t begin_us;
 } loiter_law;
 
-/* A configuration with the values that the simulations of docs/guidance.md use, in still air. */
+/* A configuration with the values that the simulations of docs/guidance.md use, in still air, with whole searches. */
 loiter_law_config loiter_law_defaults(loiter_real airspeed_m_s, loiter_real bank_limit_deg, loiter_real radius_m,
                                       int side);
 

@@ -174,6 +174,10 @@ def law_of(kind, trial):
     return kind(trial.ideal.orbit, trial.declared)
 
 
+class By2(OnboardLaw):
+    search_steps = 2
+
+
 class By5(OnboardLaw):
     search_steps = 5
 
@@ -192,7 +196,7 @@ def law_in_wind(kind, trial):
 
 def spread(count=100):
     aircraft, setting = Aircraft(18.0, max_bank_deg=35.0), point_mass_setting(0.05)
-    laws = {str(kind.search_steps): partial(law_in_wind, kind) for kind in (OnboardLaw, By5, By10, By20)}
+    laws = {str(kind.search_steps): partial(law_in_wind, kind) for kind in (OnboardLaw, By2, By5, By10, By20)}
     starts = trials(count, 0, aircraft, Wind(6.0, 250.0))
     done = campaign(laws, setting.simulator, starts, band=setting.band, workers=1)
     whole_s = np.array([one.settled_s for one in done["0"]])
