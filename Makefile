@@ -1,6 +1,6 @@
 # make demo   plan a real entry: the table on the screen, the picture in demo.png
 # make check  format, lint, types, import contracts and the quick tests, in two minutes: for every day
-# make test   the same with all tests, and the page in a browser: some eighteen minutes on two cores
+# make test   the same with all tests, and the page in a browser: some twenty minutes on two cores
 # make bench  times of the answers and of other methods: table and plot in benchmarks/results; ROWS=0 skips the tables
 # make verify all independent methods, the search over 100,000 random scenes in still air and 1,000 in wind
 # make prove-formal  the theorem on the circle of the turn radius, by Coq (formal/, docs/formal.md)
@@ -53,7 +53,7 @@ $(BIN)/python:
 /usr/bin/chromium-headless-shell:
 	@requirements/apt-install chromium-headless-shell
 
-.PHONY: demo check test bench verify prove-formal docs site firefox notebooks generate pins lint
+.PHONY: demo check test all-tests bench verify prove-formal docs site firefox notebooks generate pins lint
 demo: .venv/base.stamp
 	$(BIN)/loiter plan --pose -400 120 90 --orbit 0 0 80 --airspeed 18 --bank 35 --plot demo.png
 
@@ -67,8 +67,12 @@ lint: .venv/dev.stamp .venv/node.stamp
 check: lint
 	$(BIN)/pytest -n 2 --quick
 
+# Types are checked while the tests run: mypy has one core, and would leave the other idle.
+test: .venv/dev.stamp .venv/node.stamp /usr/bin/chromium-headless-shell
+	@$(MAKE) --no-print-directory -j2 lint all-tests
+
 # Hypothesis draws the same examples each time, so that a release does not fail by chance; make check draws new ones.
-test: lint /usr/bin/chromium-headless-shell
+all-tests:
 	$(BIN)/pytest -n 3 --hypothesis-profile=ci
 
 bench: .venv/dev.stamp

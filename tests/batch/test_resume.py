@@ -47,7 +47,7 @@ def names(path):
 
 @pytest.mark.parametrize(
     ("source", "target", "times"),
-    [("in.parquet", "out.parquet", 20), ("in.parquet", "out/", 20), ("in.csv", "out.csv.gz", 4)],
+    [("in.parquet", "out.parquet", 12), ("in.parquet", "out/", 12), ("in.csv", "out.csv.gz", 4)],
 )
 def test_killed_at_any_moment_it_resumes_to_the_same_bytes(tmp_path, source, target, times):
     write(poses(10_000), tmp_path / source, 250)

@@ -23,6 +23,7 @@ from loiter.guidance.simulators.sensors import Noise
 from loiter.guidance.vehicle.rolling import Roll
 from loiter.kernel.wind import slots
 from loiter.planning.compass import heading_vector
+from loiter.planning.model import CALM
 from native.library import COMPILER, FLAGS
 
 SOURCE = Path(__file__).with_name("slot_flights_in_c.c")
@@ -41,11 +42,12 @@ def library():
     return CDLL(str(output))
 
 
-def vehicle(pose, aircraft, seed, gust, steps, step_s):
-    """The scene of a `PointMass` with a seed in still air, and the random numbers that it draws: of sensors and air."""
+def vehicle(pose, aircraft, wind, seed, gust, steps, step_s):
+    """The scene of a `PointMass` with a seed, and the random numbers that it draws: of sensors and air."""
     air, sensors = (np.random.default_rng(each) for each in np.random.SeedSequence(seed).spawn(2))
     V, (along, y, slope), noise = aircraft.airspeed_m_s, air.standard_normal(3).tolist(), Noise()
     east, north = heading_vector(pose.heading_deg)
+    wind_east_m_s, wind_north_m_s = wind.velocity_m_s
     scene = Scene(
         east_m=pose.east_m,
         north_m=pose.north_m,
@@ -53,6 +55,8 @@ def vehicle(pose, aircraft, seed, gust, steps, step_s):
         heading_north=north,
         V=V,
         turn_ratio=1.0,
+        wind_east_m_s=wind_east_m_s,
+        wind_north_m_s=wind_north_m_s,
         limit_deg=aircraft.bank_deg(aircraft.turn_radius_m),
         roll=roll_kind(Roll(), 0.0)[0],
         **{name: getattr(noise, name) for name in noise.__dataclass_fields__},
@@ -67,9 +71,9 @@ def vehicle(pose, aircraft, seed, gust, steps, step_s):
     return scene, drawn(sensors, 2 * steps + 2, 7), drawn(air, steps, 3)
 
 
-def fly_into_slot(pose, law, aircraft, seed, *, gust, steps, step_s):
-    """The places, east + 1j north, after each step of a `SlotEntry` in still air."""
-    scene, normals, gusts = vehicle(pose, aircraft, seed, gust, steps, step_s)
+def fly_into_slot(pose, law, aircraft, wind, seed, *, gust, steps, step_s):
+    """The places, east + 1j north, after each step of a `SlotEntry`."""
+    scene, normals, gusts = vehicle(pose, aircraft, wind, seed, gust, steps, step_s)
     places, slot = np.empty((steps, 2)), structure(kind_of_type(slot_step.SlotSettings, ""))
     library().fly_into_slot(
         byref(scene),
@@ -87,7 +91,7 @@ def fly_into_slot(pose, law, aircraft, seed, *, gust, steps, step_s):
 
 def fly_formation(poses, orbit, side, aircraft, seeds, *, least_m, gust, steps, step_s):
     """The places of aircraft (rows) by the law of `formation`, which are in the order of their phases."""
-    flown = [vehicle(pose, aircraft, seed, gust, steps, step_s) for pose, seed in zip(poses, seeds, strict=True)]
+    flown = [vehicle(pose, aircraft, CALM, seed, gust, steps, step_s) for pose, seed in zip(poses, seeds, strict=True)]
     scenes = (Scene * len(flown))(*(scene for scene, _, _ in flown))
     normals, gusts = np.array([each[1] for each in flown]), np.array([each[2] for each in flown])
     places = np.empty((steps, len(flown), 2))

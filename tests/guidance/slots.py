@@ -1,22 +1,24 @@
 """Fleets flown in closed loop, each aircraft into its slot, in gusts, beside a published formation law.
 
 `python -m guidance.slots 100` flies 100 fleets of 5 from random starts and prints as it goes, `100 1000` those of the
-seeds from 1000 on; `100 1000 5 0` plans their slots without a reserve, which is a percentage.
+seeds from 1000 on; `100 1000 5 0` plans their slots without a reserve, which is a percentage. `100 1000 5 8 25` flies
+them in a steady wind of 25 % of the airspeed, from a random direction, without the published law, which knows no wind.
 """
 
 from __future__ import annotations
 
 import sys
 from dataclasses import replace
-from math import radians, sin, tau
+from math import tau
 from typing import NamedTuple
 
 import numpy as np
 
 from guidance import slot_flights_in_c
 from guidance.formation import phase_along
-from loiter import Aircraft, Orbit, Pose, fleet
+from loiter import Aircraft, Orbit, Pose, Wind, fleet
 from loiter.guidance.entry.slot_entry import BAND, SlotEntry
+from loiter.planning.fleet import FleetPlan, fleet_period_s, slot_tracks
 from loiter.planning.sides import sign_of
 
 UAV, STEP_S, GUST = Aircraft(18.0, max_bank_deg=35.0), 0.05, 0.05
@@ -36,39 +38,41 @@ class Scene(NamedTuple):
 
     poses: list[Pose]
     orbit: Orbit
-    plan: object
+    plan: FleetPlan
     side: int
     ideal_s: float
+    wind: Wind
 
 
-def scene(seed, count=5, reserve=RESERVE):
-    """Random starts within 6 radii of a circle of 1.5 to 4 turn radii."""
+def scene(seed, count=5, reserve=RESERVE, wind_share=0.0):
+    """Random starts within 6 radii of a circle of 1.5 to 4 turn radii; in wind, of the tightest that can be held."""
     random = np.random.default_rng([seed, count])
-    r = UAV.turn_radius_m * random.uniform(1.5, 4.0)
+    r = UAV.turn_radius_m * random.uniform(1.5, 4.0) * (1.0 + wind_share) ** 2
     places = random.uniform(1.0, 6.0, count) * r * np.exp(1j * random.uniform(0.0, tau, count))
     headings = random.uniform(0.0, 360.0, count)
     poses = [Pose(p.real, p.imag, h) for p, h in zip(places.tolist(), headings.tolist(), strict=True)]
-    orbit = Orbit(0.0, 0.0, r)
-    ideal = fleet(poses, orbit, UAV)
-    plan = fleet(poses, orbit, UAV, reserve=reserve) if reserve > 0.0 else ideal
-    return Scene(poses, replace(orbit, turn=plan.turn), plan, sign_of(plan.turn), ideal.duration_s)
+    orbit, wind = Orbit(0.0, 0.0, r), Wind(wind_share * UAV.airspeed_m_s, random.uniform(0.0, 360.0))
+    ideal = fleet(poses, orbit, UAV, wind)
+    plan = fleet(poses, orbit, UAV, wind, reserve=reserve) if reserve > 0.0 else ideal
+    return Scene(poses, replace(orbit, turn=plan.turn), plan, sign_of(plan.turn), ideal.duration_s, wind)
 
 
-def turn_s(orbit):
+def turn_s(given):
     """The time of a turn."""
-    return tau * orbit.radius_m / UAV.airspeed_m_s
+    return fleet_period_s(given.plan)
 
 
 def fly_into_slots(given, seed, gust=GUST):
     """The places of all aircraft, east + 1j north: (n, steps)."""
-    steps = int((given.plan.duration_s + TURNS * turn_s(given.orbit)) / STEP_S)
+    steps = int((given.plan.duration_s + TURNS * turn_s(given)) / STEP_S)
     flown = enumerate(zip(given.poses, given.plan.slots, strict=True))
     return np.array(
         [
             slot_flights_in_c.fly_into_slot(
                 pose,
-                SlotEntry(given.orbit, UAV, slot=slot),
+                SlotEntry(given.orbit, UAV, given.wind, slot=slot),
                 UAV,
+                given.wind,
                 1000 * seed + i,
                 gust=gust,
                 steps=steps,
@@ -91,7 +95,7 @@ def fly_formation(given, seed, gust=GUST):
         [1000 * seed + i for i in order],
         least_m=LEAST_TURN * UAV.turn_radius_m,
         gust=gust,
-        steps=int((given.plan.duration_s + RIVAL_TURNS * turn_s(given.orbit)) / STEP_S),
+        steps=int((given.plan.duration_s + RIVAL_TURNS * turn_s(given)) / STEP_S),
         step_s=STEP_S,
     )
 
@@ -104,16 +108,9 @@ class Result(NamedTuple):
 
 
 def in_slots(given, tracks):
-    """Each aircraft beside its own slot, which moves in still air with the airspeed of the aircraft."""
-    R, side = given.orbit.radius_m, given.side
-    times = STEP_S * np.arange(1, tracks.shape[1] + 1)
-    errors = []
-    for track, slot in zip(tracks, given.plan.slots, strict=True):
-        # A compass bearing is 90 degrees less the angle from the east.
-        at_s = phase_along(sin(radians(slot.phase_deg)), np.cos(radians(slot.phase_deg)), side)
-        phase = at_s + (times - slot.at_s) * UAV.airspeed_m_s / R
-        errors.append(np.angle(np.exp(1j * (-side * np.angle(track) - phase))))
-    return _result(given, tracks, np.array(errors))
+    """Each aircraft beside its own slot."""
+    times_s = STEP_S * np.arange(1, tracks.shape[1] + 1)
+    return _result(given, tracks, np.angle(tracks / slot_tracks(given.plan, times_s)))
 
 
 def in_formation(given, tracks):
@@ -126,7 +123,7 @@ def in_formation(given, tracks):
 
 def in_order(given, tracks):
     """The tracks in the order of the slots round the circle, along the hold."""
-    order = np.argsort([-slot.at_s % turn_s(given.orbit) for slot in given.plan.slots])
+    order = np.argsort([-slot.at_s % turn_s(given) for slot in given.plan.slots])
     return tracks[order]
 
 
@@ -139,7 +136,7 @@ def _result(given, tracks, errors):
 
 def _first(off, entered, kept, given):
     """The first time within `entered` from which on all stay within `kept` for a turn."""
-    turn = int(turn_s(given.orbit) / STEP_S)
+    turn = int(turn_s(given) / STEP_S)
     outside = np.flatnonzero(off > kept)
     for i in np.flatnonzero(off <= entered):
         k = np.searchsorted(outside, i)
@@ -149,14 +146,15 @@ def _first(off, entered, kept, given):
     return float("nan")
 
 
-def main(count, first=0, size=5, reserve_percent=100.0 * RESERVE):
+def main(count, first=0, size=5, reserve_percent=100.0 * RESERVE, wind_percent=0.0):
     """Print the results of fleets and of the published law from the same starts, and a table."""
     rows = []
     for seed in range(first, first + count):
-        given = scene(seed, size, 0.01 * reserve_percent)
+        given = scene(seed, size, 0.01 * reserve_percent, 0.01 * wind_percent)
         tracks = fly_into_slots(given, seed)
-        results = in_slots(given, tracks), in_formation(given, in_order(given, tracks))
-        results += (in_formation(given, fly_formation(given, seed)),)
+        results = (in_slots(given, tracks),)
+        if wind_percent == 0.0:
+            results += in_formation(given, in_order(given, tracks)), in_formation(given, fly_formation(given, seed))
         rows.append([each / given.ideal_s for result in results for each in result])
         text = ", ".join(f"{value:.2f}" for value in rows[-1])
         print(f"{seed}: R {given.orbit.radius_m:.0f}, plan {given.ideal_s:.1f} s; over it: {text}", flush=True)
@@ -165,7 +163,8 @@ def main(count, first=0, size=5, reserve_percent=100.0 * RESERVE):
 
 
 def _print_table(rows):
-    for name, i in {"own slot": 0, "equal intervals": 2, "rival, equal intervals": 4}.items():
+    names = {"own slot": 0, "equal intervals": 2, "rival, equal intervals": 4}
+    for name, i in list(names.items())[: len(rows[0]) // 2]:
         for what, j in (("in, then within twice", i), ("within for a turn", i + 1)):
             column = np.array([row[j] for row in rows])
             known = np.nan_to_num(column, nan=np.inf)

@@ -102,15 +102,16 @@ def test_a_fleet_settles_in_gusts():
 @needs_compiler
 def test_the_campaign_flies_the_law_of_python():
     """Into the slot and 20 s along it, where the machine code has to be in step with Python's random numbers too."""
-    slot, steps = Slot(320.0), 1000
-    law, simulator = SlotEntry(ORBIT, UAV, slot=slot), PointMass(POSE, UAV, seed=4, gust=GUST, noise=Noise())
+    slot, steps, wind = Slot(320.0), 1000, Wind(4.5, 250.0)
+    law = SlotEntry(ORBIT, UAV, wind, slot=slot)
+    simulator = PointMass(POSE, UAV, wind, seed=4, gust=GUST, noise=Noise())
     python = []
     for _ in range(steps):
         simulator.advance(law.step(simulator.measured_state(), STEP_S), STEP_S)
         state = simulator.true_state()
         python.append(complex(state.east_m, state.north_m))
-    again = SlotEntry(ORBIT, UAV, slot=slot)
-    c = slot_flights_in_c.fly_into_slot(POSE, again, UAV, 4, gust=GUST, steps=steps, step_s=STEP_S)
+    again = SlotEntry(ORBIT, UAV, wind, slot=slot)
+    c = slot_flights_in_c.fly_into_slot(POSE, again, UAV, wind, 4, gust=GUST, steps=steps, step_s=STEP_S)
     assert c == pytest.approx(np.array(python), abs=1e-6)
 
 

@@ -79,8 +79,8 @@ def bring(page, handle):
 
 @pytest.mark.parametrize(
     ("device", "dy"),
-    [(PHONE, -72), (PHONE, 72), (TABLET, -72), (ON_ITS_SIDE, 72)],
-    ids=["phone, up", "phone, down", "tablet, up", "phone on its side, down"],
+    [(PHONE, 72), (TABLET, -72), (ON_ITS_SIDE, 72)],
+    ids=["phone, down", "tablet, up", "phone on its side, down"],
 )
 def test_a_finger_drags_each_handle_up_and_down(opened, device, dy):
     page = opened(**device)

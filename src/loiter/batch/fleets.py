@@ -1,4 +1,7 @@
-"""The aircraft of a fleet: a small CSV file whose columns have the names and units of tables of states."""
+"""The aircraft of a fleet: a small CSV file with their poses, or with the connections to vehicles in flight.
+
+The columns of poses have the names and units of tables of states.
+"""
 
 from __future__ import annotations
 
@@ -14,6 +17,12 @@ from loiter.planning.units import parse_number
 # The column with the names of the aircraft; without one they are numbered from 1.
 NAME = "name"
 
+# The columns with the connection to a vehicle and its system number, which may be absent or empty.
+CONNECT, SYSTEM = "connect", "system"
+
+# The largest system number of MAVLink.
+MOST_SYSTEMS = 255
+
 # A name becomes part of the names of files.
 FORBIDDEN = frozenset('/\\:*?"<>|')
 
@@ -25,6 +34,14 @@ class FleetRow(NamedTuple):
     first: float
     second: float
     heading_deg: float
+
+
+class ConnectedRow(NamedTuple):
+    """A vehicle in flight: its name, its connection as `loiter guide --connect` takes it, and its system number."""
+
+    name: str
+    connection: str
+    system: int | None
 
 
 class FleetTable(NamedTuple):
@@ -40,6 +57,42 @@ def read_fleet(path: Path, columns: Mapping[str, str]) -> FleetTable:
     `columns` maps quantities to columns with other names or units, as in `batch.run`; a column `name` is optional.
     Raises `InvalidArgument` for a file that cannot be read or is no such table.
     """
+    names, records = _records(path)
+    mapped, is_placed = _columns(path, names, columns)
+    rows = [_row(path, line, fields, mapped) for line, fields in records]
+    named = [row._replace(name=row.name or str(i)) for i, row in enumerate(rows, 1)]
+    _check_names(path, [row.name for row in named])
+    return FleetTable(tuple(named), is_placed)
+
+
+def read_connections(path: Path) -> tuple[ConnectedRow, ...]:
+    """The vehicles in a CSV file: a column connect and, if wanted, name and system.
+
+    Raises `InvalidArgument` for a file that cannot be read or is no such table.
+    """
+    names, records = _records(path)
+    if CONNECT not in names:
+        raise _fault(path, f"it has no column {CONNECT}: each vehicle has its connection there")
+    for name in names:
+        if name not in (NAME, CONNECT, SYSTEM):
+            raise _fault(path, f"it has a column {name}: those of vehicles are {NAME}, {CONNECT} and {SYSTEM}")
+    rows = [_connected(path, line, fields) for line, fields in records]
+    named = [row._replace(name=row.name or str(i)) for i, row in enumerate(rows, 1)]
+    _check_names(path, [row.name for row in named])
+    return tuple(named)
+
+
+def _connected(path: Path, line: int, fields: Mapping[str, str]) -> ConnectedRow:
+    connection, system = fields[CONNECT].strip(), fields.get(SYSTEM, "").strip()
+    if not connection:
+        raise _fault(path, f"line {line} has no connection")
+    if system and not (system.isdecimal() and 1 <= int(system) <= MOST_SYSTEMS):
+        raise _fault(path, f"line {line} has the system {system!r}: it is a number from 1 to {MOST_SYSTEMS}")
+    return ConnectedRow(fields.get(NAME, "").strip(), connection, int(system) if system else None)
+
+
+def _records(path: Path) -> tuple[list[str], list[tuple[int, dict[str, str]]]]:
+    """The names of the columns, and each row with its line; raises `InvalidArgument` for what is no such table."""
     try:
         with path.open(encoding="utf-8-sig", newline="") as file:
             lines = [(reader.line_num, record) for reader in [csv.reader(file, strict=True)] for record in reader]
@@ -48,15 +101,15 @@ def read_fleet(path: Path, columns: Mapping[str, str]) -> FleetTable:
         raise _fault(path, f"it cannot be read, {cause}") from error
     (_, header), *records = [(number, record) for number, record in lines if record] or [(1, [])]
     names = [name.strip() for name in header]
-    mapped, is_placed = _columns(path, names, columns)
-    rows = [
-        _row(path, number, dict(zip(names, record, strict=False)), record, names, mapped) for number, record in records
-    ]
-    if not rows:
+    for name in names:
+        if names.count(name) > 1:
+            raise _fault(path, f"it has two columns {name!r}")
+    for line, record in records:
+        if len(record) != len(names):
+            raise _fault(path, f"line {line} has {len(record)} fields, the header {len(names)}")
+    if names and not records:
         raise _fault(path, "it has no rows: each aircraft is one")
-    named = [row._replace(name=row.name or str(i)) for i, row in enumerate(rows, 1)]
-    _check_names(path, [row.name for row in named])
-    return FleetTable(tuple(named), is_placed)
+    return names, [(line, dict(zip(names, record, strict=True))) for line, record in records]
 
 
 def _fault(path: Path, problem: str) -> InvalidArgument:
@@ -65,9 +118,6 @@ def _fault(path: Path, problem: str) -> InvalidArgument:
 
 def _columns(path: Path, names: list[str], given: Mapping[str, str]) -> tuple[list[MappedColumn], bool]:
     """The columns of the position and the heading, and whether positions are in degrees."""
-    for name in names:
-        if names.count(name) > 1:
-            raise _fault(path, f"it has two columns {name!r}")
     mapped = mapped_columns(names, given)
     is_placed = all(name in mapped for name in PLACE)
     if is_placed and all(name in mapped for name in LOCAL):
@@ -86,11 +136,7 @@ def _columns(path: Path, names: list[str], given: Mapping[str, str]) -> tuple[li
     return [mapped[name] for name in wanted], is_placed
 
 
-def _row(
-    path: Path, line: int, fields: Mapping[str, str], record: list[str], names: list[str], mapped: list[MappedColumn]
-) -> FleetRow:
-    if len(record) != len(names):
-        raise _fault(path, f"line {line} has {len(record)} fields, the header {len(names)}")
+def _row(path: Path, line: int, fields: Mapping[str, str], mapped: list[MappedColumn]) -> FleetRow:
     first, second, heading_deg = (_number(path, line, fields[column.name], column) for column in mapped)
     return FleetRow(fields.get(NAME, "").strip(), first, second, heading_deg)
 

@@ -52,6 +52,8 @@ EXAMPLES = {
       --orbit-lla 47.11 8.23 120 --turn ccw --bank 40
   loiter guide --connect udpin:127.0.0.1:14550 --orbit-lla 47.11 8.23 120 \
       --turn cw --airspeed 22 --slot 90 --slot-at 1790000000
+  loiter guide --fleet vehicles.csv --orbit-lla 47.11 8.23 120 \
+      --airspeed 22 --separation 80
   loiter guide --connect /dev/ttyUSB0,57600 --orbit-lla 47.11 8.23 120 \
       --altitude 900 --keep --log flight.csv""",
     "fly": r"""
@@ -96,7 +98,8 @@ STATUSES: tuple[tuple[str, tuple[str, ...]], ...] = (
     ),
     (
         """  3  the vehicle cannot be reached, does not answer or refuses, or guiding
-     had to stop: the sentence says what the vehicle has or does now""",
+     had to stop: the sentence says what the vehicle has or does now; of a
+     fleet, not all were in their slots at the end""",
         ("guide",),
     ),
     (

@@ -17,7 +17,8 @@ from cyclopts import Parameter
 
 import loiter
 from loiter.cli import report, vehicles
-from loiter.cli.commands.mavlink import Connect, JsonLines, System, Timeout, connection
+from loiter.cli.commands.mavlink import Connect, System, Timeout, connection
+from loiter.cli.numbers import metres, one
 from loiter.cli.options import (
     GuidedFenceOptions,
     GuidedOrbitOptions,
@@ -31,7 +32,8 @@ from loiter.cli.options import (
 )
 from loiter.cli.scenes import read_slot
 from loiter.cli.status import abandon_output
-from loiter.errors import InvalidArgument, LinkFailed
+from loiter.errors import InvalidArgument, LinkFailed, not_negative, positive, share
+from loiter.guidance.entry.slot_entry import BAND
 from loiter.mavlink.connection.link import TIMEOUT_S
 from loiter.planning.model import wind_from_velocity
 
@@ -48,7 +50,15 @@ ENDING_SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP")
 
 def guide(
     *,
-    connect: Connect,
+    connect: Connect | None = None,
+    fleet: Annotated[
+        Path | None,
+        Parameter(
+            group=connection,
+            metavar="FILE",
+            help="Instead of --connect: several vehicles at once, each into a slot of the circle. A CSV file with a row for each: connect, and optionally name and system.",
+        ),
+    ] = None,
     system: System = None,
     timeout: Timeout = TIMEOUT_S,
     every: Annotated[float, Parameter(group=connection, metavar="SECONDS", help="Time between lines.")] = 1.0,
@@ -97,14 +107,29 @@ def guide(
         ),
     ] = None,
     slot_band: SlotBand = None,
+    separation: Annotated[
+        float | None,
+        Parameter(
+            group=scene,
+            converter=one(metres),
+            metavar="METRES",
+            help="With --fleet: least horizontal distance between two vehicles. A fleet whose plan does not keep it is refused; in flight a line says where it is not kept.",
+        ),
+    ] = None,
     log: Annotated[
         Path | None,
         Parameter(
             group=output, metavar="FILE", help="Write every step to a .csv or .parquet; loiter fly --replay plots it."
         ),
     ] = None,
-    json: JsonLines = False,
-) -> None:
+    json: Annotated[
+        bool,
+        Parameter(
+            group=output,
+            help="Print a JSON object a line instead of text. With --fleet: one object at the end, and text on standard error.",
+        ),
+    ] = False,
+) -> int | None:
     """Guide a vehicle in flight onto the circle by bank commands, then hand it over to its own hold."""
     if not circle.placed:
         raise InvalidArgument("orbit_lla", "is needed: a vehicle reports its position in degrees")
@@ -114,6 +139,34 @@ def guide(
     wind, altitude_m = None if air.wind is None else air.moving_air, written_altitude(uav.altitude)
     if not (yes or dry_run or sys.stdin.isatty()):
         raise InvalidArgument("yes", "is needed where nobody can answer: standard input is not a terminal")
+    if fleet is not None:
+        from loiter.cli.commands.guide_fleet import FleetOutput, guide_fleet
+        from loiter.mavlink.guiding.fleet import FleetRequest
+
+        single = {"connection": connect, "system": system, "slot": slot, "slot_at_s": slot_at, "log": log}
+        for name, value in (single | {"fence": fence.fence, "keep": keep or None}).items():
+            if value is not None:
+                raise InvalidArgument(name, "has no effect with --fleet")
+        if uav.airspeed is None:
+            raise InvalidArgument("airspeed_m_s", "is needed with --fleet: the slots move with it")
+        request = FleetRequest(
+            orbit=orbit,
+            frame=frame,
+            airspeed_m_s=positive("airspeed_m_s", uav.airspeed, "metres per second"),
+            max_bank_deg=None if uav.bank is None else positive("max_bank_deg", uav.bank, "degrees"),
+            wind=wind,
+            altitude_m=altitude_m,
+            timeout_s=timeout,
+            slot_band=BAND if slot_band is None else share("slot_band", slot_band),
+            accept_fly_away=accept_fly_away,
+            resume=resume,
+            separation_m=0.0 if separation is None else not_negative("separation_m", separation, "metres"),
+        )
+        return guide_fleet(fleet, request, FleetOutput(None if yes or dry_run else _question(), dry_run, every, json))
+    if separation is not None:
+        raise InvalidArgument("separation_m", "has no effect without --fleet")
+    if connect is None:
+        raise InvalidArgument("connection", "is needed, or --fleet for several vehicles")
     reports = loiter.mavlink.guide(
         connect,
         orbit,
@@ -152,6 +205,7 @@ def guide(
                 raise
             # It came between two reports: the vehicle is commanded back, and the interrupt says so.
             reports.throw(KeyboardInterrupt)
+    return None
 
 
 def _slot_arguments(bearing_deg: float | None, at_s: float | None, band: float | None) -> dict[str, Any]:

@@ -12,6 +12,7 @@ import socket
 from collections.abc import Callable, Collection, Iterator
 from contextlib import closing, contextmanager, suppress
 from math import inf
+from multiprocessing import parent_process
 from time import monotonic
 from typing import Any, NamedTuple
 
@@ -121,8 +122,13 @@ class Link:
         return self._port.mav.srcSystem, self._port.mav.srcComponent
 
     def become_guide(self) -> None:
-        """Take the component id of a program that guides, which does not command yet."""
-        self._port.mav.srcComponent = FIRST_GUIDE + os.getpid() % GUIDES
+        """Take the component id of a program that guides, which does not command yet.
+
+        The processes in which one program guides several vehicles have one id: they are no rivals.
+        """
+        program = parent_process()
+        number = os.getpid() if program is None else program.pid
+        self._port.mav.srcComponent = FIRST_GUIDE + (number or 0) % GUIDES
         self.status = STANDBY
 
     def send(self, message: Any) -> None:

@@ -119,7 +119,7 @@ class GuidedFlight:
 
     def _await_confirmation(self) -> Generator[GuideReport, None, None]:
         """Show the summary, wait until it is confirmed, and check that the mode is still the first that was heard."""
-        contact, confirm = self._contact, self._request.confirm
+        contact = self._contact
         self._check_mode()
         self._notices += self._summary
         self._stage = Stage.READY
@@ -130,7 +130,7 @@ class GuidedFlight:
             self._check(now)
             self._check_mode()
             if confirmed_at == inf:
-                confirmed_at = now if confirm is None or confirm() else inf
+                confirmed_at = now if self._is_confirmed() else inf
             elif now > confirmed_at + FIRST_HEARTBEAT_S:
                 raise LinkFailed(f"{contact.name} sends no heartbeat")
             contact.request_in_flight(now)
@@ -143,6 +143,17 @@ class GuidedFlight:
         self._stage = Stage.FALL_BACK
         self._plan_report(monotonic())
 
+    def _is_confirmed(self) -> bool:
+        """Whether the flight may begin; a vehicle of a fleet takes its slot then."""
+        request = self._request
+        if request.assign is None:
+            return request.confirm is None or request.confirm()
+        assigned = request.assign(self._setup, self._measure(), monotonic() - self._contact.measurements.arrived)
+        if assigned is None:
+            return False
+        self._request = request._replace(orbit=assigned.orbit, slot=assigned.slot)
+        return True
+
     def _check_mode(self) -> None:
         """Stop where the mode has changed since the vehicle was first heard: the pilot has taken over."""
         if change := self._modes.change:
@@ -150,7 +161,11 @@ class GuidedFlight:
 
     @property
     def _summary(self) -> tuple[str, ...]:
-        return summary(self._contact, self._setup, turn_given=self._request.orbit.turn != Turn.EITHER)
+        turn = self._setup.orbit.turn.described
+        if self._request.orbit.turn == Turn.EITHER:
+            assigned = self._request.assign is not None
+            turn = "in the direction of the fleet" if assigned else f"{turn}, which is faster now"
+        return summary(self._contact, self._setup, turn)
 
     def _new_law(self) -> LoiterEntry:
         p = self._setup
@@ -297,7 +312,8 @@ class GuidedFlight:
 
     def request_again(self) -> GuideRequest:
         """The request with which guiding begins anew: the same altitude and direction, without a question."""
-        return self._request._replace(orbit=self.orbit, altitude_m=self._setup.altitude_m, confirm=None)
+        altitude_m = self._setup.altitude_m
+        return self._request._replace(orbit=self.orbit, altitude_m=altitude_m, confirm=None, assign=None)
 
     def stop(self, stop: StopReason) -> str:
         """Stop guiding: command the fall-back circle where that is allowed; returns the sentence that says why."""

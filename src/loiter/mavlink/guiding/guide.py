@@ -132,8 +132,8 @@ def guide(
         slot=slot,
         slot_band=slot_band,
     )
-    target = _Target(connection, system, component, timeout_s)
-    return _guide(target, request, period_s, path, resume=resume)
+    target = Target(connection, system, component, timeout_s)
+    return guide_request(target, request, period_s, path, resume=resume)
 
 
 def check_slot(slot: Slot, slot_band: float, orbit: Orbit, airspeed_m_s: float | None) -> None:
@@ -146,7 +146,7 @@ def check_slot(slot: Slot, slot_band: float, orbit: Orbit, airspeed_m_s: float |
         raise InvalidArgument("airspeed_m_s", "is needed with a slot, which moves with it")
 
 
-class _Target(NamedTuple):
+class Target(NamedTuple):
     """The connection to a vehicle, as `guide` takes it."""
 
     connection: str
@@ -155,9 +155,10 @@ class _Target(NamedTuple):
     timeout_s: float
 
 
-def _guide(
-    target: _Target, request: GuideRequest, period_s: float, log: Path | None, *, resume: bool
+def guide_request(
+    target: Target, request: GuideRequest, period_s: float, log: Path | None, *, resume: bool
 ) -> Generator[GuideReport, None, None]:
+    """The flight of a request whose arguments are checked; otherwise like `guide`."""
     with open_link(*target, listen_s=0.0) as link:
         began = monotonic()
         flight = GuidedFlight(Contact(link, target.connection, request.frame), request, period_s, began)

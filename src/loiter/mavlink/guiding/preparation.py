@@ -48,10 +48,18 @@ AIRSPEED_SHARE = 0.15
 OwnFence: TypeAlias = Literal["vehicle"]
 
 
+class Assignment(NamedTuple):
+    """The slot of one vehicle of a fleet, whose times are Unix times, and the circle with the direction of all."""
+
+    orbit: Orbit
+    slot: Slot
+
+
 class GuideRequest(NamedTuple):
     """The arguments of `guide`: the circle and its frame, the aircraft and the wind if they are given, the options.
 
-    The times of the slot are Unix times.
+    The times of the slot are Unix times. `assign` takes the place of `confirm` for a vehicle of a fleet: it is called
+    with what the flight would begin with, the last state and its age, seconds, until it returns the slot.
     """
 
     orbit: Orbit
@@ -68,6 +76,7 @@ class GuideRequest(NamedTuple):
     margin_m: float | None = None
     slot: Slot | None = None
     slot_band: float = BAND
+    assign: Callable[[FlightSetup, State, float], Assignment | None] | None = None
 
 
 class FlightSetup(NamedTuple):

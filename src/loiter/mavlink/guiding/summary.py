@@ -11,11 +11,14 @@ from loiter.mavlink.guiding.preparation import FlightSetup
 ARDUPLANE_LOSS = "ArduPlane keeps its bank for up to 3 s and then flies the fall-back circle"
 
 
-def summary(contact: Contact, setup: FlightSetup, *, turn_given: bool) -> tuple[str, ...]:
-    """Sentences: what is taken over, which circle is flown, what follows a lost link, the fence, other stations."""
+def summary(contact: Contact, setup: FlightSetup, turn: str) -> tuple[str, ...]:
+    """Sentences: what is taken over, which circle is flown, what follows a lost link, the fence, other stations.
+
+    `turn` is the direction in words.
+    """
     return (
         f"{_from_mode(contact)}; it is at {heights(contact.telemetry.fix().altitude_m, contact.home_altitude_m)}.",
-        f"{_circle(contact, setup, turn_given=turn_given)}.",
+        f"{_circle(contact, setup)}, {turn}.",
         f"If this program or the link dies, {loss_consequence(contact, setup)}.",
         f"Fence: {setup.settings.fence}.",
         *_stations(contact),
@@ -44,10 +47,9 @@ def _from_mode(contact: Contact) -> str:
     return f"{contact.name} flies in {contact.monitor.modes.name}, and is commanded to change to {modes}"
 
 
-def _circle(contact: Contact, setup: FlightSetup, *, turn_given: bool) -> str:
-    turn = setup.orbit.turn.described if turn_given else f"{setup.orbit.turn.described}, which is faster now"
+def _circle(contact: Contact, setup: FlightSetup) -> str:
     altitude = heights(setup.altitude_m, contact.home_altitude_m)
-    return f"The circle: radius {setup.orbit.radius_m:g} m at {altitude}, {turn}"
+    return f"The circle: radius {setup.orbit.radius_m:g} m at {altitude}"
 
 
 def _stations(contact: Contact) -> list[str]:

@@ -1,0 +1,179 @@
+"""`loiter guide --fleet`: several vehicles in flight at once, each into a slot of one circle."""
+
+from __future__ import annotations
+
+import signal
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from math import inf, isnan
+from pathlib import Path
+from time import monotonic
+from typing import NamedTuple
+
+from rich.console import RenderableType
+
+from loiter.batch.fleets import read_connections
+from loiter.cli import report
+from loiter.cli.commands.fleet import ShownFleet
+from loiter.cli.commands.guide import ENDING_SIGNALS, line
+from loiter.cli.status import LINK_FAILED, abandon_output
+from loiter.errors import LinkFailed
+from loiter.mavlink.guiding.fleet import REPORT_S, FleetRequest, FleetVehicle, GuidedFleet, Member, check_fleet
+from loiter.planning.model import Orbit
+
+
+class FleetOutput(NamedTuple):
+    """How to go about it: the question before the first command (None: none), and what is printed.
+
+    With `dry_run` nothing is commanded; `period_s` is the time between lines.
+    """
+
+    question: Callable[[], bool] | None
+    dry_run: bool
+    period_s: float
+    json: bool
+
+    def write(self, *lines: RenderableType) -> None:
+        """Print lines and tables; on standard error where standard output has the JSON object alone."""
+        if self.json:
+            sys.stderr.writelines(f"{each}\n" for each in lines if isinstance(each, str))
+            return
+        report.write(*lines)
+        sys.stdout.flush()
+
+
+def guide_fleet(table: Path, request: FleetRequest, output: FleetOutput) -> int:
+    """Guide the vehicles of a file until a signal ends it; returns the exit status, 0 if all are in their slots then.
+
+    Raises `InvalidArgument` for a file of vehicles that cannot be guided together, and `LinkFailed` where one of them
+    cannot be guided at the start: none is commanded then.
+    """
+    vehicles = [FleetVehicle(*row) for row in read_connections(table)]
+    check_fleet(vehicles, request.timeout_s)
+    with _noted_signals() as signals, GuidedFleet(vehicles, request) as fleet:
+        flight = _FleetFlight(fleet, output, signals)
+        try:
+            planned = flight.plan()
+            if planned is None:
+                raise KeyboardInterrupt("guiding was interrupted; nothing was commanded")
+            if output.dry_run:
+                output.write("Dry run: nothing was commanded.")
+            else:
+                flight.fly()
+        except BrokenPipeError:
+            abandon_output()
+            raise LinkFailed("standard output was closed: guiding has stopped") from None
+        settled = fleet.settled
+        fleet.stop()
+        output.write(*(f"{each.vehicle.name}: {each.ended.sentence}" for each in fleet.members if each.ended))
+    if output.json:
+        report.print_json(flight.document(planned, settled=settled))
+    return 0 if settled or output.dry_run else LINK_FAILED
+
+
+class _FleetFlight:
+    """The steps of the program: the vehicles are prepared, planned for, asked about and followed."""
+
+    def __init__(self, fleet: GuidedFleet, output: FleetOutput, signals: list[int]) -> None:
+        self._fleet, self._output, self._signals = fleet, output, signals
+        self._names = tuple(member.vehicle.name for member in fleet.members)
+        self._told: set[str] = set()
+
+    def plan(self) -> ShownFleet | None:
+        """The plan that is begun, once it is confirmed; None after a signal. In a dry run it is not begun."""
+        for _ in self._fleet.prepare():
+            self._write_notices()
+            if self._signals:
+                return None
+        self._write_notices()
+        shown, at_s = self._show(self._fleet.request.orbit)
+        if self._output.dry_run:
+            return shown
+        if self._output.question is not None:
+            while not self._output.question():
+                for _ in self._fleet.listen(monotonic() + REPORT_S):
+                    self._fleet.check_waiting()
+                if self._signals:
+                    return None
+            # Meanwhile they have flown on: the direction is the one that was confirmed.
+            self._output.write("The plan from where they are now:")
+            shown, at_s = self._show(shown.plan.entries[0].orbit)
+        if self._signals:
+            return None
+        self._fleet.begin(shown.plan, at_s)
+        return shown
+
+    def _show(self, orbit: Orbit) -> tuple[ShownFleet, float]:
+        """A plan, which is printed, and the Unix time of its start."""
+        plan, at_s = self._fleet.plan(orbit)
+        shown = ShownFleet(plan, self._names, 0.0, self._fleet.request.separation_m)
+        self._output.write(*shown.lines())
+        return shown, at_s
+
+    def fly(self) -> None:
+        """Print what the vehicles report until a signal, or until none is guided any more."""
+        due = monotonic() + self._output.period_s
+        while self._fleet.flying and not self._signals:
+            for _ in self._fleet.listen(min(due, monotonic() + REPORT_S)):
+                pass
+            self._write_notices()
+            self._output.write(*self._fleet.separation_notices())
+            self._tell_faults()
+            if monotonic() >= due:
+                due += self._output.period_s
+                self._output.write(*(self._line(member) for member in self._fleet.flying if member.report))
+
+    def _line(self, member: Member) -> str:
+        assert member.report is not None  # the caller has asked
+        return f"{member.vehicle.name}: {line(member.report)}"
+
+    def _write_notices(self) -> None:
+        for member in self._fleet.members:
+            self._output.write(*(f"{member.vehicle.name}: {notice}" for notice in member.notices))
+            member.notices.clear()
+
+    def _tell_faults(self) -> None:
+        """Say once of each vehicle that is not guided any more why, and what becomes of the others."""
+        for member in self._fleet.members:
+            name = member.vehicle.name
+            if member.fault and name not in self._told:
+                self._told.add(name)
+                self._output.write(
+                    f"{name}: {member.fault}",
+                    f"{name} keeps no slot, and its distances are not watched any more; the others fly on.",
+                )
+
+    def document(self, shown: ShownFleet, *, settled: bool) -> dict[str, object]:
+        """The plan and what became of it as plain values for JSON."""
+        members = self._fleet.members
+        return {
+            "settled": settled,
+            "least_distance_m": None if self._fleet.least_m == inf else self._fleet.least_m,
+            "vehicles": [
+                {
+                    "name": member.vehicle.name,
+                    "connection": member.vehicle.connection,
+                    "system": member.vehicle.system,
+                    "in_slot": not isnan(member.settled_s),
+                    "slot_ahead_deg": report.json_value(member.slot_ahead_deg),
+                    "guided": member.fault == "",
+                    "end": None if member.ended is None else member.ended.sentence,
+                }
+                for member in members
+            ],
+            "plan": shown.document(),
+        }
+
+
+@contextmanager
+def _noted_signals() -> Iterator[list[int]]:
+    """A list to which `ENDING_SIGNALS` are appended meanwhile: an exception could come amid a message."""
+    noted: list[int] = []
+    numbers = [number for name in ENDING_SIGNALS if (number := getattr(signal, name, None)) is not None]
+    former = [signal.signal(number, lambda number, _: noted.append(number)) for number in numbers]
+    try:
+        yield noted
+    finally:
+        for number, handler in zip(numbers, former, strict=True):
+            signal.signal(number, handler)
