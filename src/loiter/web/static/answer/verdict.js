@@ -46,7 +46,7 @@ function validText({ residuals, proved_optimal, runner_up, margin_s }, scene) {
   const meaning = proved_optimal
     ? `In still air it is proved that nothing is faster${scene.orbit.turn === "either" ? "" : " in this direction"}.`
     : scene.slot
-      ? "That no path is in the slot earlier is cross-checked by an independent method."
+      ? "An independent method finds no earlier arrival."
       : "They are necessary conditions, not a proof of optimality.";
   const hasRunnerUp = runner_up !== null && margin_s !== null;
   const margin = hasRunnerUp ? ` Runner-up ${runner_up}, ${timeDifference(margin_s, scene)} later.` : "";
