@@ -344,3 +344,13 @@ def test_none_is_commanded_where_one_cannot_be_guided():
     fine, ended = member("a", waiting=Waiting(time(), STATE, 45.0)), member("b", ended=LOST)
     with pytest.raises(LinkFailed, match="b: the link is lost; no vehicle was commanded"):
         list(fleet_of(fine, ended).prepare())
+
+
+def test_none_is_commanded_where_one_ends_while_the_others_are_planned_for():
+    waiting, (near, far), (ours, theirs) = Waiting(time(), STATE, 45.0), Pipe(), Pipe()
+    fine = Member(FleetVehicle("a", "udpout:127.0.0.1:1"), None, near, waiting)
+    ended = Member(FleetVehicle("b", "udpout:127.0.0.1:2"), None, ours, waiting)
+    theirs.send(LOST)
+    with pytest.raises(LinkFailed, match="b: the link is lost; no vehicle was commanded"):
+        fleet_of(fine, ended).begin(SimpleNamespace(turn=Turn.CW, slots=[Slot(0.0)] * 2), 0.0)
+    assert not far.poll()

@@ -38,6 +38,9 @@ RESERVE = 0.08
 # Seconds between the reports of a process: for so long it may fly on when it is told to stop.
 REPORT_S = 0.2
 
+# Seconds for which messages are received that have come meanwhile.
+HEAR_S = 0.05
+
 # Seconds from a plan to the first command: the fall-back circle is accepted, and PX4 has changed its mode. The first
 # plan takes longer than it is allowed for, since packages are imported: a plan that is late is made again.
 BEGIN_S, PLANS = 1.0, 3
@@ -236,6 +239,7 @@ class GuidedFleet:
         Raises `InvalidArgument` where the vehicles would come closer than the separation, and the errors of `fleet`.
         """
         for _ in range(PLANS):
+            self._hear()
             began, at_s = monotonic(), time() + self._plan_s + BEGIN_S
             plan = self._plan_from(at_s, orbit)
             self._plan_s = monotonic() - began
@@ -250,6 +254,12 @@ class GuidedFleet:
             raise InvalidArgument("separation_m", f"{wanted}: {near}; no vehicle was commanded")
         return plan, at_s
 
+    def _hear(self) -> None:
+        """Receive what the processes have sent; raises like `check_waiting`."""
+        for _ in self.listen(monotonic() + HEAR_S):
+            pass
+        self.check_waiting()
+
     def _plan_from(self, at_s: float, orbit: Orbit) -> FleetPlan:
         """The plan from where the vehicles will be at a Unix time."""
         r = self.request
@@ -260,7 +270,8 @@ class GuidedFleet:
         return fleet(poses, orbit, aircraft, wind, separation_m=r.separation_m, reserve=RESERVE)
 
     def begin(self, plan: FleetPlan, at_s: float) -> None:
-        """Send every process its slot; `at_s` is the Unix time of the plan's start."""
+        """Send every process its slot; `at_s` is the Unix time of the plan's start. Raises like `check_waiting`."""
+        self._hear()
         orbit = replace(self.request.orbit, turn=plan.turn)
         for member, slot in zip(self.members, plan.slots, strict=True):
             with suppress(OSError):
