@@ -179,7 +179,7 @@ def _checked(row: Row, flown: Maneuver | LegPlan, fence: Fence, margin_m: float 
 
 def _clear_s(row: Row, fence: Fence, margin_m: float | None) -> float:
     """The time of the fastest clear entry found; nan for none."""
-    from loiter.fences import clear_entry
+    from loiter.fences.clear_entry import fastest_clear
 
-    found = clear_entry(fence, row.pose, row.orbit, row.aircraft, row.wind, margin_m).maneuver
+    found = fastest_clear(fence, row.pose, row.orbit, row.aircraft, row.wind, margin_m).maneuver
     return nan if found is None else found.duration_s

@@ -157,8 +157,8 @@ def polygon_sign(zone: PolygonZone, east_m: Any, north_m: Any) -> Any:
     return np.where(inside == zone.inclusion, 1.0, -1.0)
 
 
-def clear_points(fence: Zones, east_m: Any, north_m: Any, margin_m: float) -> Any:
-    """Which of many points (n,) are on the allowed side of every zone of a fence, farther from it than a margin."""
+def clear_points(fence: Zones, east_m: Any, north_m: Any, margin_m: Any) -> Any:
+    """Which of many points (n,) are on the allowed side of every zone of a fence, farther from it than their margin."""
     import numpy as np
 
     clear = np.ones(east_m.size, bool)

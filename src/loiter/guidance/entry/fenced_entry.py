@@ -12,7 +12,8 @@ from multiprocessing import get_context
 from typing import Any, NamedTuple
 
 from loiter.errors import InvalidArgument, LoiterError, RadiusTooSmall, WindTooStrong, instance, not_negative
-from loiter.fences import ClearEntry, Fence, check, clear_entry, default_margin_m
+from loiter.fences import ClearEntry, Fence, check, default_margin_m
+from loiter.fences.clear_entry import fastest_clear
 from loiter.guidance.entry.entry_planner import RelativeState, end_entry_search
 from loiter.guidance.entry.law_step import Plan
 from loiter.guidance.entry.loiter_entry import LoiterEntry
@@ -134,7 +135,7 @@ class FencedEntry(LoiterEntry):
             if self._is_tight:
                 radius_m, margin_m = min(radius_m, TIGHT * turns.tightest_m), LESS_MARGIN * margin_m
             problem = pose, self._orbit, self._turning(radius_m), self._wind, margin_m
-            self._asked = _Asked(state, self._submit(clear_entry, self._fence, *problem))
+            self._asked = _Asked(state, self._submit(fastest_clear, self._fence, *problem))
 
     # What is known at present.
 

@@ -6,7 +6,7 @@ from math import inf
 from typing import Any
 
 from loiter.errors import InvalidArgument
-from loiter.fences.clear_entry import clear_entry
+from loiter.fences.clear_entry import fastest_clear
 from loiter.fences.entries import ClearEntry
 from loiter.fences.fence import Fence, check
 from loiter.geo.placed import PlacedProblem
@@ -61,4 +61,4 @@ def clear_maneuver(placed: PlacedProblem, fence: Fence, margin_m: float | None) 
 
 def _search(placed: PlacedProblem, fence: Fence, margin_m: float | None) -> ClearEntry:
     problem = placed.problem
-    return clear_entry(fence, problem.pose, problem.orbit, problem.aircraft, problem.wind, margin_m)
+    return fastest_clear(fence, problem.pose, problem.orbit, problem.aircraft, problem.wind, margin_m)

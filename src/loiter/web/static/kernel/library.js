@@ -2196,7 +2196,7 @@ return qgcplan(found, autopilot, plan.entry.aircraft.airspeed_m_s, fence);
 function _search(placed, fence, margin_m) {
 let problem;
 problem = placed.problem;
-return clear_entry(fence, problem.pose, problem.orbit, problem.aircraft, problem.wind, margin_m);
+return fastest_clear(fence, problem.pose, problem.orbit, problem.aircraft, problem.wind, margin_m);
 }
 
 function maneuver_values(maneuver, frame = null) {
@@ -3294,7 +3294,7 @@ append_(items, _item(MavCommand.NAV_LAND, NO_PARAMS, end, runway_m));
 return Mission(tuple(items), [...iter(end), runway_m]);
 }
 
-function clear_entry(fence, pose, orbit, aircraft, wind = null, margin_m = null) {
+function fastest_clear(fence, pose, orbit, aircraft, wind = null, margin_m = null) {
 let best, blocking, enough_m, fastest_m_s, found, known, later_s, least_s, problem;
 arrays.unchecked("fence", fence, Fence);
 problem = Problem(pose, orbit, aircraft, ((wind == null) ? CALM : wind));
