@@ -116,6 +116,7 @@ def test_an_exit_is_set_dragged_typed_and_dropped(opened):
     page.keyboard.press("ArrowUp")
     settle(page)
     step = scene(page)["leg"]["exit_to"][1] - moved[1]
+    assert step > 0.0
     assert moved[1] - dragged[1] == pytest.approx(11 * step, rel=0.05)
     page.locator("#leg-hold").fill("1.5 min")
     page.locator("#leg-turns").fill("2")
