@@ -15,7 +15,18 @@ from loiter.planning.slot import Slot
 from loiter.web import models
 from loiter.web.answers import plans
 from loiter.web.answers.tracks import lap
-from web.engine import CLOSE, FLAT, FORMATS, answered, difference, difference_of_files, drawn, of_the_page, verdicts
+from web.engine import (
+    CLOSE,
+    FLAT,
+    FORMATS,
+    NUMBER,
+    answered,
+    difference,
+    difference_of_files,
+    drawn,
+    of_the_page,
+    verdicts,
+)
 
 # The place of a slot at the join, and the end of the path, which are found by different ways.
 MEETS_M = 1e-6
@@ -76,6 +87,13 @@ def _file(name, scene, options):
     return file_content(Path(f"entry.{name}"), arguments).decode()
 
 
+def of_certificate(proof):
+    """What a certificate says: its verdicts, the time before which it excludes arrivals, and what samples decide."""
+    found = proof["certificate"]
+    notes = [NUMBER.sub("#", one["note"]) for one in found["residuals"]]
+    return verdicts(proof) | {"before_s": found.get("no_arrival_before_s"), "notes": notes}
+
+
 def differences(scene, page):
     """In what the page's answers to a scene with a slot differ from the library's, and how it ends, by name."""
     library, found = of_the_library(scene), Counter()
@@ -92,7 +110,7 @@ def differences(scene, page):
     if what := difference(page["lap"], library["lap"], FLAT, size):
         found[f"lap: {what[:90]}"] += 1
     if not scene["uncertified"]:
-        what = difference(verdicts(page["certificate"]), verdicts(library["certificate"]), CLOSE)
+        what = difference(of_certificate(page["certificate"]), of_certificate(library["certificate"]), FLAT)
         found[f"certificate: {what[:90]}" if what else "certificates"] += 1
     miss_m = max(abs(page["slotPose"][name] - b["join"][name]) for name in ("east_m", "north_m"))
     if miss_m > MEETS_M * (1.0 + size):
