@@ -12,11 +12,20 @@
 extern "C" {
 #endif
 
-/* Single precision with -DLOITER_FLOAT; otherwise double. Every file that includes this one needs the same, and no
- * compiler says that one has the other. */
+/* Single precision with -DLOITER_FLOAT; otherwise double. Every file that includes this one needs the same: the functions
+ * in single precision have names of their own, so that files of both kinds do not link. */
 #ifdef LOITER_FLOAT
 typedef float loiter_real;
 typedef int32_t loiter_integer;
+#define loiter_fastest loiter_fastest_float
+#define loiter_search_begin loiter_search_begin_float
+#define loiter_search_step loiter_search_step_float
+#define loiter_law_defaults loiter_law_defaults_float
+#define loiter_law_begin loiter_law_begin_float
+#define loiter_law_step loiter_law_step_float
+#define loiter_law_step_known loiter_law_step_known_float
+#define loiter_identification_begin loiter_identification_begin_float
+#define loiter_law_step_identified loiter_law_step_identified_float
 #else
 typedef double loiter_real;
 typedef int64_t loiter_integer;

@@ -55,6 +55,22 @@ def test_it_compiles_without_a_warning(language, single, tmp_path):
         subprocess.run([*command, *flags, *macros, "-c", source, "-o", tmp_path / "loiter.o"], check=True)
 
 
+def functions(source, *macros):
+    """The names by which a linker finds what a source defines."""
+    subprocess.run([COMPILER, "-std=c99", *macros, "-c", source, "-o", source.name + ".o"], check=True)
+    listed = subprocess.run(
+        ["nm", "-g", "--defined-only", source.name + ".o"], capture_output=True, text=True, check=True
+    )
+    return {line.split()[-1] for line in listed.stdout.splitlines()}
+
+
+def test_files_in_single_and_double_precision_do_not_link(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for name in ("loiter.c", "loiter_identification.c"):
+        double, single = functions(FOLDER / name), functions(FOLDER / name, "-DLOITER_FLOAT")
+        assert single == {f"{function}_float" for function in double} != set()
+
+
 def test_it_needs_no_header_but_those_of_the_language_and_math():
     for name in (path.name for path in FOLDER.glob("loiter*.[ch]")):
         included = {line.split()[1] for line in (FOLDER / name).read_text("utf-8").splitlines() if "#include" in line}
