@@ -2,7 +2,7 @@
 --
 -- Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
 --
--- SHA-256 of the source: 4adb3ce821c2e30538b82c2b938a2fa44d7af67e3a38e0a360d1ef642be9cfd0
+-- SHA-256 of the source: f50dac1aba7967d60aad679ffa4e1d14aede1044a7f99049c476e96c47c825d5
 --
 -- When a switch asks for it, this script flies a plane onto the holding circle around its present target in least
 -- time, and then leaves the circle to ArduPlane: loiter_entry.md. It works by GUIDED_CHANGE_HEADING in GUIDED: the target
@@ -1697,6 +1697,14 @@ function law.rsl(start)
     return law.external_join(57--[[Word.RSL]], -start.y, start, start.inner >= 4.0 * start.R)
 end
 
+-- (R + 3)^2 - rm^2: not negative where the circle of R meets the last circle of L, so where RL exists.
+--
+-- It is 4 (R + y + 2) - `outer`, and not computed as 8 (R + 1) - `inner`: next to (0, -R - 2), where it vanishes
+-- and RL is the fastest, neither term is negative, so that no digits are lost. T varies with its square root.
+function law.within_reach(start)
+    return 4.0 * (start.R + start.y + 2.0) - start.outer
+end
+
 -- The squared distance from (0, centre), accurate even near zero; computed from `beyond` it would lose digits.
 function law.squared_distance(x, y, centre)
     return x * x + (y - centre) * (y - centre)
@@ -1704,11 +1712,11 @@ end
 
 -- RL: right to the crossing with the last circle (R + 1 about (0, -1)) where x1 has `branch`'s sign; then left.
 --
--- The two circles meet at y1 = R - q/4, x1^2 = p q / 16 with q = `inner` = rm^2 - (R - 1)^2 and p = (R + 3)^2 -
--- rm^2 = 8 (R + 1) - q.
+-- The two circles meet at y1 = R - q/4, x1^2 = p q / 16 with q = `inner` = rm^2 - (R - 1)^2 and p = `within_reach`
+-- = (R + 3)^2 - rm^2.
 function law.rl(start, branch)
     local x, y, R, arc_tolerance, inner = start.x, start.y, start.R, start.arc_tolerance, start.inner
-    local p = 8.0 * (R + 1.0) - inner
+    local p = law.within_reach(start)
     local x1 = branch * 0.25 * sqrt(max(p * inner, 0.0))
     local radius2 = law.squared_distance(x, y, 1.0)
     local first = {law.snap_full_turn({law.rotation(x, y - 1.0, x1, R - 1.0 - 0.25 * inner)}, radius2,
@@ -1763,24 +1771,32 @@ function law.r(start)
             law.NO_ROTATION}
 end
 
+-- The difference a^2 - b with nearly full relative accuracy even near zero, for |a| < 2^480.
+function law.square_beyond(a, b)
+    local p, e = law.two_product(a, a)
+    return p - b + e
+end
+
 -- Left to the switching curve at (xa, ya), right for more than pi to (xb, yb) on the last circle, left.
 --
 -- With xa / ya = -xb / yb = m and a = 1 + m^2, the circles give a ya^2 + 2 ya = k = rp^2 - 1, a yb^2 + 2 yb = K = R
--- (R + 2) and a (ya + yb) = 2; hence yb - ya = d = (K - k)/4 = -outer/4 and, for s = ya + yb = 2/a, the larger root
--- of 3 s^2 - 2 h s + d^2 = 0. Quantities that vanish in places are not computed as differences: ya comes from k,
--- and w = 2 - s = m^2 s is -`fold` v / (16 (6 - h + sqrt(D))), v = (R + 5)^2 - rp^2 = 8 (R + 3) - `outer`; so LRL
--- needs rp <= 3 - R.
+-- (R + 2) and a (ya + yb) = 2; hence yb - ya = d = (K - k)/4 = -outer/4 and, for s = ya + yb = 2/a and h = (K +
+-- k)/2, the larger root of 3 s^2 - 2 h s + d^2 = 0. Quantities that vanish in places are not computed as
+-- differences of others: ya comes from k, and w = 2 - s = m^2 s is the smaller root of 3 w^2 - 2 gap w + v = 0 with
+-- v = -`fold` ((R + 5)^2 - rp^2)/16 and gap = 6 - h = 3 - (R - 1)^2 - `fold`/2, whose terms have one sign where LRL
+-- is the fastest; so LRL needs rp <= 3 - R.
 function law.lrl(start)
     local x, y, R, arc_tolerance, outer, fold = start.x, start.y, start.R, start.arc_tolerance, start.outer,
             start.fold
-    local k, K, d = x * x + y * (y + 2.0), R * (R + 2.0), -0.25 * outer
-    local h = K + 0.5 * outer
-    local D = h * h - 3.0 * d * d
-    local exists = R <= 3.0 and fold <= 0.0 and D >= 0.0 and h < 6.0
+    local k, d = x * x + y * (y + 2.0), -0.25 * outer
+    local gap = -0.5 * fold - law.square_beyond(R - 1.0, 3.0)
+    local v = -0.0625 * fold * (8.0 * (R + 3.0) - outer)
+    local D = gap * gap - 3.0 * v
+    local exists = R <= 3.0 and fold <= 0.0 and D >= 0.0 and gap > 0.0
     local root = sqrt(max(D, 0.0))
-    local above, below = h + root, exists and 6.0 - h + root or 1.0
+    local above, below = 6.0 - gap + root, exists and gap + root or 1.0
     local share = 1.0 / (above * below)
-    local w = -fold * (8.0 * (R + 3.0) - outer) * 0.0625 * above * share
+    local w = v * above * share
     local a = 6.0 * below * share
     local m = sqrt(max(0.5 * a * w, 0.0))
     -- ya = k/q; every vector is multiplied by q.
@@ -1808,13 +1824,14 @@ end
 -- LR, R > 1: left to the crossing with the circle (R - 1 about (0, 1)) where x1 has `branch`'s sign; then right.
 --
 -- The two circles meet at y1 = R - q/4, x1^2 = p q / 16 with q = -`outer` = (R + 1)^2 - rp^2, p = `fold` = rp^2 -
--- (R - 3)^2.
+-- (R - 3)^2. So y1 + 1 is R + 1 - q/4 or 3 - R + p/4, and y1 - 1 is R - 1 - q/4: those forms are used whose terms
+-- are no longer than the arc's radius, however small that is.
 function law.lr(start, branch)
     local x, y, R, arc_tolerance, outer, fold = start.x, start.y, start.R, start.arc_tolerance, start.outer,
             start.fold
     local x1 = branch * 0.25 * sqrt(max(-outer * fold, 0.0))
     local radius2 = law.squared_distance(x, y, -1.0)
-    local first = {law.snap_full_turn({law.rotation(x1, R + 1.0 + 0.25 * outer, x, y + 1.0)}, radius2,
+    local first = {law.snap_full_turn({law.rotation(x1, 3.0 - R + 0.25 * fold, x, y + 1.0)}, radius2,
             arc_tolerance)}
     local last = {law.snap_full_turn({x1, R - 1.0 + 0.25 * outer}, (R - 1.0) * (R - 1.0), arc_tolerance)}
     return {word = 7--[[Word.LR]], first = first, straight = R > 1.0 and outer <= 0.0 and fold >= 0.0 and 0.0 or
@@ -1855,6 +1872,11 @@ end
 function law.is_at_most_half_turn(rotated)
     local cross = rotated[1]
     return cross >= 0.0
+end
+
+-- Whether a single arc replaces the words of which it is the limit: it reaches the target, and may be optimal.
+function law.is_limit(arc, y)
+    return law.reaches(arc) and (law.is_at_most_half_turn(arc.first) or y <= 0.0)
 end
 
 -- The rotation, less half a turn where it is half a turn or more, and the count `halves` of these half turns.
@@ -1901,9 +1923,10 @@ end
 -- The least T and its extremal, among at most three words: one for each first turn, and the `detour`.
 --
 -- `exact` says that there is no tolerance. Then a start counts as on a last circle only if it is there up to
--- rounding, and the single arc replaces the words of which it is the limit. It does not replace LRL where it would
--- cross the axis from y > 0, which no optimal first arc does. With a tolerance, where a start may lie beside a
--- circle, the single arcs compete with the other words, so that a tolerance never makes T larger.
+-- rounding, and the single arc replaces the words of which it is the limit. It does not replace them where it takes
+-- more than half a turn from y > 0, which no optimal single arc does: from beside the circle and just past the
+-- target it would be almost a whole turn. With a tolerance, where a start may lie beside a circle, the single arcs
+-- compete with the other words, so that a tolerance never makes T larger.
 --
 -- Without a tolerance no times are compared for R = 1, y >= 0 (paper, section 6): the word that begins with L wins
 -- where it exists and its first arc is no longer than half a turn, up to the switching curve.
@@ -1912,9 +1935,8 @@ function law.fastest(x, y, R, arc_tolerance, exact)
     local right, only_right = law.right_first(start), law.r(start)
     local left, only_left = law.left_first(start), law.l(start)
     if exact then
-        left = law.select(law.reaches(only_left) and (law.is_at_most_half_turn(only_left.first) or y <= 0.0),
-                only_left, left)
-        right = law.select(law.reaches(only_right), only_right, right)
+        left = law.select(law.is_limit(only_left, y), only_left, left)
+        right = law.select(law.is_limit(only_right, y), only_right, right)
     end
     local best
     if exact and R == 1.0 and not (y < 0.0) then

@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 2f3b57a16c0d3a126cd81536e631f4c06d5356d89543e415614e5e92a1ccc5fa
+ * SHA-256 of the source: affa78a4c0529b3f1eb050620c18b1c5e69f45f1341e7336d6559a3a55cb5020
  */
 #include "loiter.h"
 
@@ -963,6 +963,15 @@ static inline Extremal rsl(const Start *start) {
     return external_join(WORD_RSL, -start->y, start, start->inner >= REAL(4.0) * start->R);
 }
 
+/* (R + 3)^2 - rm^2: not negative where the circle of R meets the last circle of L, so where RL exists.
+ *
+ * It is 4 (R + y + 2) - `outer`, and not computed as 8 (R + 1) - `inner`: next to (0, -R - 2), where it vanishes
+ * and RL is the fastest, neither term is negative, so that no digits are lost. T varies with its square root.
+ */
+static inline real within_reach(const Start *start) {
+    return REAL(4.0) * (start->R + start->y + REAL(2.0)) - start->outer;
+}
+
 /* The squared distance from (0, centre), accurate even near zero; computed from `beyond` it would lose digits. */
 static inline real squared_distance(real x, real y, real centre) {
     return x * x + (y - centre) * (y - centre);
@@ -975,13 +984,13 @@ static inline real_2 rotation(real ax, real ay, real bx, real by) {
 
 /* RL: right to the crossing with the last circle (R + 1 about (0, -1)) where x1 has `branch`'s sign; then left.
  *
- * The two circles meet at y1 = R - q/4, x1^2 = p q / 16 with q = `inner` = rm^2 - (R - 1)^2 and p = (R + 3)^2 -
- * rm^2 = 8 (R + 1) - q.
+ * The two circles meet at y1 = R - q/4, x1^2 = p q / 16 with q = `inner` = rm^2 - (R - 1)^2 and p = `within_reach`
+ * = (R + 3)^2 - rm^2.
  */
 static inline Extremal rl(const Start *start, real branch) {
     const real x = start->x, y = start->y, R = start->R, arc_tolerance = start->arc_tolerance, inner =
             start->inner;
-    const real p = REAL(8.0) * (R + REAL(1.0)) - inner;
+    const real p = within_reach(start);
     const real x1 = branch * REAL(0.25) * real_sqrt(max_real(p * inner, REAL(0.0)));
     const real radius2 = squared_distance(x, y, REAL(1.0));
     const real_2 first = snap_full_turn(rotation(x, y - REAL(1.0), x1, R - REAL(1.0) - REAL(0.25) * inner), radius2,
@@ -1046,25 +1055,34 @@ static inline Extremal extremals_r(const Start *start) {
     return MAKE(Extremal){WORD_R, first, straight, NO_ROTATION, NO_ROTATION};
 }
 
+/* The difference a^2 - b with nearly full relative accuracy even near zero, for |a| < 2^480. */
+static inline real square_beyond(real a, real b) {
+    const real_2 two_product_1 = two_product(a, a);
+    const real p = two_product_1.a0, e = two_product_1.a1;
+    return p - b + e;
+}
+
 /* Left to the switching curve at (xa, ya), right for more than pi to (xb, yb) on the last circle, left.
  *
  * With xa / ya = -xb / yb = m and a = 1 + m^2, the circles give a ya^2 + 2 ya = k = rp^2 - 1, a yb^2 + 2 yb = K = R
- * (R + 2) and a (ya + yb) = 2; hence yb - ya = d = (K - k)/4 = -outer/4 and, for s = ya + yb = 2/a, the larger root
- * of 3 s^2 - 2 h s + d^2 = 0. Quantities that vanish in places are not computed as differences: ya comes from k,
- * and w = 2 - s = m^2 s is -`fold` v / (16 (6 - h + sqrt(D))), v = (R + 5)^2 - rp^2 = 8 (R + 3) - `outer`; so LRL
- * needs rp <= 3 - R.
+ * (R + 2) and a (ya + yb) = 2; hence yb - ya = d = (K - k)/4 = -outer/4 and, for s = ya + yb = 2/a and h = (K +
+ * k)/2, the larger root of 3 s^2 - 2 h s + d^2 = 0. Quantities that vanish in places are not computed as
+ * differences of others: ya comes from k, and w = 2 - s = m^2 s is the smaller root of 3 w^2 - 2 gap w + v = 0 with
+ * v = -`fold` ((R + 5)^2 - rp^2)/16 and gap = 6 - h = 3 - (R - 1)^2 - `fold`/2, whose terms have one sign where LRL
+ * is the fastest; so LRL needs rp <= 3 - R.
  */
 static inline Extremal lrl(const Start *start) {
     const real x = start->x, y = start->y, R = start->R, arc_tolerance = start->arc_tolerance, outer =
             start->outer, fold = start->fold;
-    const real k = x * x + y * (y + REAL(2.0)), K = R * (R + REAL(2.0)), d = -REAL(0.25) * outer;
-    const real h = K + REAL(0.5) * outer;
-    const real D = h * h - REAL(3.0) * d * d;
-    const bool exists = R <= REAL(3.0) && fold <= REAL(0.0) && D >= REAL(0.0) && h < REAL(6.0);
+    const real k = x * x + y * (y + REAL(2.0)), d = -REAL(0.25) * outer;
+    const real gap = -REAL(0.5) * fold - square_beyond(R - REAL(1.0), REAL(3.0));
+    const real v = -REAL(0.0625) * fold * (REAL(8.0) * (R + REAL(3.0)) - outer);
+    const real D = gap * gap - REAL(3.0) * v;
+    const bool exists = R <= REAL(3.0) && fold <= REAL(0.0) && D >= REAL(0.0) && gap > REAL(0.0);
     const real root = real_sqrt(max_real(D, REAL(0.0)));
-    const real above = h + root, below = exists ? REAL(6.0) - h + root : REAL(1.0);
+    const real above = REAL(6.0) - gap + root, below = exists ? gap + root : REAL(1.0);
     const real share = REAL(1.0) / (above * below);
-    const real w = -fold * (REAL(8.0) * (R + REAL(3.0)) - outer) * REAL(0.0625) * above * share;
+    const real w = v * above * share;
     const real a = REAL(6.0) * below * share;
     const real m = real_sqrt(max_real(REAL(0.5) * a * w, REAL(0.0)));
     /* ya = k/q; every vector is multiplied by q. */
@@ -1093,14 +1111,15 @@ static inline bool reaches(const Extremal *extremal) {
 /* LR, R > 1: left to the crossing with the circle (R - 1 about (0, 1)) where x1 has `branch`'s sign; then right.
  *
  * The two circles meet at y1 = R - q/4, x1^2 = p q / 16 with q = -`outer` = (R + 1)^2 - rp^2, p = `fold` = rp^2 -
- * (R - 3)^2.
+ * (R - 3)^2. So y1 + 1 is R + 1 - q/4 or 3 - R + p/4, and y1 - 1 is R - 1 - q/4: those forms are used whose terms
+ * are no longer than the arc's radius, however small that is.
  */
 static inline Extremal lr(const Start *start, real branch) {
     const real x = start->x, y = start->y, R = start->R, arc_tolerance = start->arc_tolerance, outer =
             start->outer, fold = start->fold;
     const real x1 = branch * REAL(0.25) * real_sqrt(max_real(-outer * fold, REAL(0.0)));
     const real radius2 = squared_distance(x, y, -REAL(1.0));
-    const real_2 first = snap_full_turn(rotation(x1, R + REAL(1.0) + REAL(0.25) * outer, x, y + REAL(1.0)), radius2,
+    const real_2 first = snap_full_turn(rotation(x1, REAL(3.0) - R + REAL(0.25) * fold, x, y + REAL(1.0)), radius2,
             arc_tolerance);
     const real_2 last = snap_full_turn(MAKE(real_2){x1, R - REAL(1.0) + REAL(0.25) * outer}, (R - REAL(1.0)) * (R -
             REAL(1.0)), arc_tolerance);
@@ -1146,6 +1165,11 @@ static inline Extremal extremals_l(const Start *start) {
 static inline bool is_at_most_half_turn(real_2 rotated) {
     const real cross = rotated.a0;
     return cross >= REAL(0.0);
+}
+
+/* Whether a single arc replaces the words of which it is the limit: it reaches the target, and may be optimal. */
+static inline bool is_limit(const Extremal *arc, real y) {
+    return reaches(arc) && (is_at_most_half_turn(arc->first) || y <= REAL(0.0));
 }
 
 /* The rotation, less half a turn where it is half a turn or more, and the count `halves` of these half turns. */
@@ -1203,9 +1227,10 @@ static inline Extremal detour(const Start *start) {
 /* The least T and its extremal, among at most three words: one for each first turn, and the `detour`.
  *
  * `exact` says that there is no tolerance. Then a start counts as on a last circle only if it is there up to
- * rounding, and the single arc replaces the words of which it is the limit. It does not replace LRL where it would
- * cross the axis from y > 0, which no optimal first arc does. With a tolerance, where a start may lie beside a
- * circle, the single arcs compete with the other words, so that a tolerance never makes T larger.
+ * rounding, and the single arc replaces the words of which it is the limit. It does not replace them where it takes
+ * more than half a turn from y > 0, which no optimal single arc does: from beside the circle and just past the
+ * target it would be almost a whole turn. With a tolerance, where a start may lie beside a circle, the single arcs
+ * compete with the other words, so that a tolerance never makes T larger.
  *
  * Without a tolerance no times are compared for R = 1, y >= 0 (paper, section 6): the word that begins with L wins
  * where it exists and its first arc is no longer than half a turn, up to the switching curve.
@@ -1217,9 +1242,8 @@ static inline real_Extremal fastest(real x, real y, real R, real arc_tolerance, 
     Extremal left = left_first(&start);
     const Extremal only_left = extremals_l(&start);
     if (exact) {
-        left = extremals_select(reaches(&only_left) && (is_at_most_half_turn(only_left.first) || y <= REAL(0.0)),
-                &only_left, &left);
-        right = extremals_select(reaches(&only_right), &only_right, &right);
+        left = extremals_select(is_limit(&only_left, y), &only_left, &left);
+        right = extremals_select(is_limit(&only_right, y), &only_right, &right);
     }
     Extremal best;
     if (exact && R == REAL(1.0) && !(y < REAL(0.0))) {

@@ -6,7 +6,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 2f3b57a16c0d3a126cd81536e631f4c06d5356d89543e415614e5e92a1ccc5fa
+ * SHA-256 of the source: affa78a4c0529b3f1eb050620c18b1c5e69f45f1341e7336d6559a3a55cb5020
  */
 #ifndef LOITER_ONBOARD_H
 #define LOITER_ONBOARD_H

@@ -43,6 +43,30 @@ UNSTABLE = [
     ("RSL", extremals, "onto_axis", "c * along + y + 1.0", "c * along + (y + 1e6) - (1e6 - 1.0)"),
     ("LR, left crossing", extremals, "angle", "atan2(cross, dot)", "acos(dot / sqrt(cross * cross + dot * dot))"),
     ("LRL", extremals, "lrl", "-0.5 * (w + d) * q", "(ya - 1e6 + 1e6 - q)"),
+    ("LRL", extremals, "lrl", "gap * gap - 3.0 * v", "(gap + 1e6) * gap - (1e6 * gap + 3.0 * v)"),
+    ("LRL", extremals, "lrl", "-0.5 * fold - square", "1e6 - 0.5 * fold - 1e6 - square"),
+    (
+        "LRL",
+        extremals,
+        "lrl",
+        "-0.0625 * fold * (8.0 * (R + 3.0) - outer)",
+        "12.0 - 4.0 * (6.0 - gap) + d * d + 1e6 - 1e6",
+    ),
+    # Formulas of earlier versions, which were late by 1e6 units in these places.
+    (
+        "RL, right crossing, next to its end",
+        extremals,
+        "within_reach",
+        "4.0 * (start.R + start.y + 2.0) - start.outer",
+        "8.0 * (start.R + 1.0) - start.inner",
+    ),
+    (
+        "LR, left crossing, next to the centre of L",
+        extremals,
+        "lr",
+        "3.0 - R + 0.25 * fold",
+        "R + 1.0 + 0.25 * outer",
+    ),
 ]
 
 

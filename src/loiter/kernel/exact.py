@@ -40,3 +40,9 @@ def beyond(x: float, y: float, R: float, k: float) -> float:
     q, eq = two_product(x, x)
     u, eu = two_sum(q, p)
     return u + (eu + (ep + eq + s * (et + ek) + t * es))
+
+
+def square_beyond(a: float, b: float) -> float:
+    """The difference a^2 - b with nearly full relative accuracy even near zero, for |a| < 2^480."""
+    p, e = two_product(a, a)
+    return (p - b) + e

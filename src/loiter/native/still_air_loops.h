@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 8dee36377a308f388d58dc632d35186fb27e02127f6661488549c6facd3a83b6
+ * SHA-256 of the source: 793003626c1257a10c2f5a448c0e09bb785cdd259fc5acf601068f4d50c1f01b
  */
 #ifndef LOITER_STILL_AIR_LOOPS_H
 #define LOITER_STILL_AIR_LOOPS_H
@@ -292,6 +292,15 @@ static inline LOITER_ALWAYS_INLINE Extremal rsl(Start start) {
     return external_join(WORD_RSL, -start.y, start, start.inner >= 4.0 * start.R);
 }
 
+/* (R + 3)^2 - rm^2: not negative where the circle of R meets the last circle of L, so where RL exists.
+ *
+ * It is 4 (R + y + 2) - `outer`, and not computed as 8 (R + 1) - `inner`: next to (0, -R - 2), where it vanishes
+ * and RL is the fastest, neither term is negative, so that no digits are lost. T varies with its square root.
+ */
+static inline LOITER_ALWAYS_INLINE real within_reach(Start start) {
+    return 4.0 * (start.R + start.y + 2.0) - start.outer;
+}
+
 /* The squared distance from (0, centre), accurate even near zero; computed from `beyond` it would lose digits. */
 static inline LOITER_ALWAYS_INLINE real squared_distance(real x, real y, real centre) {
     return x * x + (y - centre) * (y - centre);
@@ -304,12 +313,12 @@ static inline LOITER_ALWAYS_INLINE real_2 rotation(real ax, real ay, real bx, re
 
 /* RL: right to the crossing with the last circle (R + 1 about (0, -1)) where x1 has `branch`'s sign; then left.
  *
- * The two circles meet at y1 = R - q/4, x1^2 = p q / 16 with q = `inner` = rm^2 - (R - 1)^2 and p = (R + 3)^2 -
- * rm^2 = 8 (R + 1) - q.
+ * The two circles meet at y1 = R - q/4, x1^2 = p q / 16 with q = `inner` = rm^2 - (R - 1)^2 and p = `within_reach`
+ * = (R + 3)^2 - rm^2.
  */
 static inline LOITER_ALWAYS_INLINE Extremal rl(Start start, real branch) {
     const real x = start.x, y = start.y, R = start.R, arc_tolerance = start.arc_tolerance, inner = start.inner;
-    const real p = 8.0 * (R + 1.0) - inner;
+    const real p = within_reach(start);
     const real x1 = branch * 0.25 * sqrt(max_real(p * inner, 0.0));
     const real radius2 = squared_distance(x, y, 1.0);
     const real_2 first = snap_full_turn(rotation(x, y - 1.0, x1, R - 1.0 - 0.25 * inner), radius2, arc_tolerance);
@@ -374,25 +383,34 @@ static inline LOITER_ALWAYS_INLINE Extremal extremals_r(Start start) {
     return (Extremal){WORD_R, first, straight, NO_ROTATION, NO_ROTATION};
 }
 
+/* The difference a^2 - b with nearly full relative accuracy even near zero, for |a| < 2^480. */
+static inline LOITER_ALWAYS_INLINE real square_beyond(real a, real b) {
+    const real_2 two_product_1 = two_product(a, a);
+    const real p = two_product_1.a0, e = two_product_1.a1;
+    return p - b + e;
+}
+
 /* Left to the switching curve at (xa, ya), right for more than pi to (xb, yb) on the last circle, left.
  *
  * With xa / ya = -xb / yb = m and a = 1 + m^2, the circles give a ya^2 + 2 ya = k = rp^2 - 1, a yb^2 + 2 yb = K = R
- * (R + 2) and a (ya + yb) = 2; hence yb - ya = d = (K - k)/4 = -outer/4 and, for s = ya + yb = 2/a, the larger root
- * of 3 s^2 - 2 h s + d^2 = 0. Quantities that vanish in places are not computed as differences: ya comes from k,
- * and w = 2 - s = m^2 s is -`fold` v / (16 (6 - h + sqrt(D))), v = (R + 5)^2 - rp^2 = 8 (R + 3) - `outer`; so LRL
- * needs rp <= 3 - R.
+ * (R + 2) and a (ya + yb) = 2; hence yb - ya = d = (K - k)/4 = -outer/4 and, for s = ya + yb = 2/a and h = (K +
+ * k)/2, the larger root of 3 s^2 - 2 h s + d^2 = 0. Quantities that vanish in places are not computed as
+ * differences of others: ya comes from k, and w = 2 - s = m^2 s is the smaller root of 3 w^2 - 2 gap w + v = 0 with
+ * v = -`fold` ((R + 5)^2 - rp^2)/16 and gap = 6 - h = 3 - (R - 1)^2 - `fold`/2, whose terms have one sign where LRL
+ * is the fastest; so LRL needs rp <= 3 - R.
  */
 static inline LOITER_ALWAYS_INLINE Extremal lrl(Start start) {
     const real x = start.x, y = start.y, R = start.R, arc_tolerance = start.arc_tolerance, outer = start.outer, fold
             = start.fold;
-    const real k = x * x + y * (y + 2.0), K = R * (R + 2.0), d = -0.25 * outer;
-    const real h = K + 0.5 * outer;
-    const real D = h * h - 3.0 * d * d;
-    const bool exists = R <= 3.0 && fold <= 0.0 && D >= 0.0 && h < 6.0;
+    const real k = x * x + y * (y + 2.0), d = -0.25 * outer;
+    const real gap = -0.5 * fold - square_beyond(R - 1.0, 3.0);
+    const real v = -0.0625 * fold * (8.0 * (R + 3.0) - outer);
+    const real D = gap * gap - 3.0 * v;
+    const bool exists = R <= 3.0 && fold <= 0.0 && D >= 0.0 && gap > 0.0;
     const real root = sqrt(max_real(D, 0.0));
-    const real above = h + root, below = exists ? 6.0 - h + root : 1.0;
+    const real above = 6.0 - gap + root, below = exists ? gap + root : 1.0;
     const real share = 1.0 / (above * below);
-    const real w = -fold * (8.0 * (R + 3.0) - outer) * 0.0625 * above * share;
+    const real w = v * above * share;
     const real a = 6.0 * below * share;
     const real m = sqrt(max_real(0.5 * a * w, 0.0));
     /* ya = k/q; every vector is multiplied by q. */
@@ -420,14 +438,15 @@ static inline LOITER_ALWAYS_INLINE bool reaches(Extremal extremal) {
 /* LR, R > 1: left to the crossing with the circle (R - 1 about (0, 1)) where x1 has `branch`'s sign; then right.
  *
  * The two circles meet at y1 = R - q/4, x1^2 = p q / 16 with q = -`outer` = (R + 1)^2 - rp^2, p = `fold` = rp^2 -
- * (R - 3)^2.
+ * (R - 3)^2. So y1 + 1 is R + 1 - q/4 or 3 - R + p/4, and y1 - 1 is R - 1 - q/4: those forms are used whose terms
+ * are no longer than the arc's radius, however small that is.
  */
 static inline LOITER_ALWAYS_INLINE Extremal lr(Start start, real branch) {
     const real x = start.x, y = start.y, R = start.R, arc_tolerance = start.arc_tolerance, outer = start.outer, fold
             = start.fold;
     const real x1 = branch * 0.25 * sqrt(max_real(-outer * fold, 0.0));
     const real radius2 = squared_distance(x, y, -1.0);
-    const real_2 first = snap_full_turn(rotation(x1, R + 1.0 + 0.25 * outer, x, y + 1.0), radius2, arc_tolerance);
+    const real_2 first = snap_full_turn(rotation(x1, 3.0 - R + 0.25 * fold, x, y + 1.0), radius2, arc_tolerance);
     const real_2 last = snap_full_turn((real_2){x1, R - 1.0 + 0.25 * outer}, (R - 1.0) * (R - 1.0), arc_tolerance);
     return (Extremal){WORD_LR, first, R > 1.0 && outer <= 0.0 && fold >= 0.0 ? 0.0 : INFINITY, last, NO_ROTATION};
 }
@@ -466,6 +485,11 @@ static inline LOITER_ALWAYS_INLINE Extremal extremals_l(Start start) {
 static inline LOITER_ALWAYS_INLINE bool is_at_most_half_turn(real_2 rotated) {
     const real cross = rotated.a0;
     return cross >= 0.0;
+}
+
+/* Whether a single arc replaces the words of which it is the limit: it reaches the target, and may be optimal. */
+static inline LOITER_ALWAYS_INLINE bool is_limit(Extremal arc, real y) {
+    return reaches(arc) && (is_at_most_half_turn(arc.first) || y <= 0.0);
 }
 
 /* The rotation, less half a turn where it is half a turn or more, and the count `halves` of these half turns. */
@@ -550,9 +574,10 @@ static inline LOITER_ALWAYS_INLINE Extremal detour(Start start) {
 /* The least T and its extremal, among at most three words: one for each first turn, and the `detour`.
  *
  * `exact` says that there is no tolerance. Then a start counts as on a last circle only if it is there up to
- * rounding, and the single arc replaces the words of which it is the limit. It does not replace LRL where it would
- * cross the axis from y > 0, which no optimal first arc does. With a tolerance, where a start may lie beside a
- * circle, the single arcs compete with the other words, so that a tolerance never makes T larger.
+ * rounding, and the single arc replaces the words of which it is the limit. It does not replace them where it takes
+ * more than half a turn from y > 0, which no optimal single arc does: from beside the circle and just past the
+ * target it would be almost a whole turn. With a tolerance, where a start may lie beside a circle, the single arcs
+ * compete with the other words, so that a tolerance never makes T larger.
  *
  * Without a tolerance no times are compared for R = 1, y >= 0 (paper, section 6): the word that begins with L wins
  * where it exists and its first arc is no longer than half a turn, up to the switching curve.
@@ -564,9 +589,8 @@ static inline LOITER_ALWAYS_INLINE real_Extremal fastest(real x, real y, real R,
     Extremal left = left_first(start);
     const Extremal only_left = extremals_l(start);
     if (exact) {
-        left = branchless_select(reaches(only_left) && (is_at_most_half_turn(only_left.first) || y <= 0.0),
-                only_left, left);
-        right = branchless_select(reaches(only_right), only_right, right);
+        left = branchless_select(is_limit(only_left, y), only_left, left);
+        right = branchless_select(is_limit(only_right, y), only_right, right);
     }
     Extremal best;
     if (exact && R == 1.0 && !(y < 0.0)) {

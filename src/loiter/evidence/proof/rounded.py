@@ -103,7 +103,8 @@ class Rounded:
         self.value = value
         # Of a component of a rotation: a lower bound on the length of the vector, where one is known.
         self.length = 0.0
-        # Of the abscissa x and of x x: the exact values of x x + y (y + 2), where they are known.
+        # Of the abscissa x and of x x: the exact values of x x + y (y + 2), where they are known; of `outer`, those of
+        # `within_reach`.
         self.total: Any = None
         self.sign = sign or (1 if value >= 0 else -1 if value <= 0 else 0)
         self.relative = 0.0 if error == 0.0 else relative

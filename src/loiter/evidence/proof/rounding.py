@@ -13,15 +13,17 @@ from typing import Any, NamedTuple
 
 from loiter.evidence.proof import balls
 from loiter.evidence.proof.algebra import flint
+from loiter.evidence.proof.answers.turns import Traced
 from loiter.evidence.proof.arrivals import CASES, Case
 from loiter.evidence.proof.arrivals import Region as WordRegion
 from loiter.evidence.proof.arrivals import regions as regions_of
 from loiter.evidence.proof.balls import Box, Certainty, Interval
 from loiter.evidence.proof.exact_paths import exact, squared, without_tolerance
-from loiter.evidence.proof.identities import zero
+from loiter.evidence.proof.identities import require, zero
 from loiter.evidence.proof.rounded import (
     BRANCHES,
     OF_SUM,
+    UNIT,
     WIDEN,
     Rounded,
     Undecided,
@@ -48,8 +50,17 @@ MOST_BOXES = 200_000
 # Digits of the balls, in bits: differences such as R - 1 keep theirs.
 BITS = 160
 
-# The relative error of `exact.beyond`, farther than three times that distance from its circle (docs/proof.md).
-BEYOND = 2.0**-51
+# The relative error of `exact.beyond` where its value exceeds 2^-46 of the square of the scale (docs/proof.md), and of
+# `exact.square_beyond`: two roundings.
+BEYOND, SQUARE_BEYOND = 2.0**-52, 2.1 * UNIT
+
+# The relative error of `within_reach` where it exceeds 2^-46 of the square of the scale, `outer` is not positive and
+# R + y + 2 is a small share of R (docs/proof.md).
+NEAR_END = 2.5 * UNIT
+
+# The error of `exact.beyond` at any value is `BEYOND` of it, and this share of the square of the scale: (B2) of
+# docs/bridging.md.
+ANYWHERE = 2.0**-100
 
 # The range: R up to 2^10; words with a straight piece up to 2^10 times the radius of the last circle.
 OCTAVES = 10
@@ -62,7 +73,7 @@ class State(NamedTuple):
     """The states of a box, in balls: x, y, R, their distance from the centre of the first arc.
 
     `outer`, `inner` and `fold` are those of the kernel's `Start`, with the bound of `exact.beyond`; None where the word
-    does not use them.
+    does not use them. `reach` is the exact value of `within_reach`.
     """
 
     x: Any
@@ -72,6 +83,7 @@ class State(NamedTuple):
     outer: Rounded | None = None
     inner: Rounded | None = None
     fold: Rounded | None = None
+    reach: Any = None
 
 
 class Region(NamedTuple):
@@ -85,7 +97,7 @@ class Region(NamedTuple):
     boxes: Sequence[Box]
     state: Callable[..., State | None]
     function: Callable[[Callable[[Function], Function], kernel.Start], kernel.Extremal]
-    weights: tuple[float, float, float] = (1.0, 1.0, 1.0)
+    weights: tuple[float, ...] = (1.0, 1.0, 1.0)
     lengths: Callable[[State], tuple[Any, ...]] = lambda state: ()
     limit: float = LIMIT
 
@@ -196,11 +208,14 @@ def word_functions() -> Callable[[Function], Function]:
     """Rebinds a function of the kernel to `Rounded` numbers; a turn counts as full only where it is."""
     names = arithmetic()
     known = with_length(rebinding(names)(angles.rotation))
+    reach = with_reach(rebinding(names)(kernel.within_reach))
     return rebinding(
         names
         | {
             "snap_full_turn": without_tolerance,
             "squared_distance": not_used,
+            "square_beyond": square_beyond,
+            "within_reach": reach,
             "total_angle": total_angle,
             "rotation": known,
         }
@@ -209,6 +224,38 @@ def word_functions() -> Callable[[Function], Function]:
 
 def not_used(*numbers: Any) -> None:
     """In place of a function of the kernel whose result serves `snap_full_turn` alone."""
+
+
+def square_beyond(a: Any, b: float) -> Rounded:
+    """In place of `exact.square_beyond`, whose product and sums are exact but for the last ones."""
+    value = a.value * a.value - b
+    error = (2.0 * a.highest * a.error + a.error * a.error) * WIDEN
+    return Rounded(value, (error + SQUARE_BEYOND * (highest(value) + error)) * WIDEN)
+
+
+def with_reach(within_reach: Callable[..., Any]) -> Callable[..., Any]:
+    """The kernel's `within_reach` with the values of `State.reach`, and the error of its own operations.
+
+    Where `outer` is not positive, next to the end of RL, its relative error is `NEAR_END`, if it is that sum.
+    """
+    check_reach()
+
+    def known(start: Any) -> Rounded:
+        found = within_reach(start)
+        reach = found.value.intersection(start.outer.total)
+        if start.outer.sign < 0:
+            return Rounded(reach, NEAR_END * highest(reach), NEAR_END, 1)
+        return Rounded(reach, found.error, sign=1)
+
+    return known
+
+
+def check_reach() -> None:
+    """Raise `NotProved` where `within_reach` is not computed as 4 (R + y + 2) - `outer`."""
+    x, y, R, tolerance, outer, inner, fold = map(Traced, ("x", "y", "R", "tolerance", "outer", "inner", "fold"))
+    start: Any = kernel.Start(x, y, R, tolerance, outer, inner, fold)  # type: ignore[arg-type]
+    expected = 4.0 * ((R + y) + 2.0) - outer
+    require(kernel.within_reach(start).text == expected.text, "`within_reach` is not 4 (R + y + 2) - outer")  # type: ignore[attr-defined]
 
 
 def halves(box: Box, weights: Sequence[float]) -> list[Box]:
@@ -243,9 +290,11 @@ def smallest_scale(state: State) -> float:
 
 def time_of(region: Region, copied: Callable[[Function], Function], state: State) -> tuple[Rounded, ...]:
     """The time of a word, as `fastest` compares it and as the sum of its durations; none where it is absent."""
-    start: Any = kernel.Start(*map(Rounded, state[:3]), 0.0, *state[4:])  # type: ignore[arg-type, call-arg]
+    start: Any = kernel.Start(*map(Rounded, state[:3]), 0.0, *state[4:7])  # type: ignore[arg-type, call-arg]
     # By `lengths`, x x + y (y + 2), or that with -y where the first arc is R, is the squared distance less 1.
     start.x.total = state.distance * state.distance - 1
+    if state.reach is not None:
+        start.outer.total = state.reach
     extremal = region.function(copied, start)
     straight: Any = extremal.straight
     if not isinstance(straight, Rounded) and straight != 0.0:
@@ -284,6 +333,12 @@ def signed(value: Any, sign: int) -> Rounded:
     return Rounded(value, BEYOND * highest(value), BEYOND, sign)
 
 
+def unsigned(value: Any, x: Any, y: Any, R: Any) -> Rounded:
+    """A quantity of `exact.beyond` at any state, also next to its circle."""
+    scale = 1.0 + highest(x) + highest(y) + highest(R)
+    return Rounded(value, (BEYOND * highest(value) + ANYWHERE * scale * scale) * WIDEN)
+
+
 def joins_external(first: int) -> Callable[..., State | None]:
     """States of LSL (first = 1) or RSL, at R and a distance of at least R + 1."""
 
@@ -316,9 +371,27 @@ def right_left(branch: float) -> Callable[..., State | None]:
         distance = between(R - 1, R + 1, share) if branch < 0.0 else between(R + 1, R + 3, share)
         if distance < APART:
             return None
-        return State(*right_of(angle, distance), R, distance, inner=signed(inner, 1))
+        x, y = right_of(angle, distance)
+        reach = 8 * (R + 1) - inner
+        outer = unsigned(4 * (R + y + 2) - reach, x, y, R)
+        return State(x, y, R, distance, outer, signed(inner, 1), reach=reach)
 
     return state
+
+
+def right_left_last(side: Any, share: Any, rest: Any, R: Any) -> State | None:
+    """States of RL with the right crossing from there to 8 (R + 1), where `outer` is not positive: next to (0, -R - 2).
+
+    `share` is that of `within_reach` in its value where the other region ends, `rest` that of 4 (R + y + 2) in it.
+    """
+    reach = (4 * R + 8) * (1 - LONG) * share
+    rise = reach * rest / 4
+    x2 = 2 * rise * (R + 3) - rise * rise - reach
+    if x2 < 0:
+        return None
+    x, distance = side * x2.nonnegative_part().sqrt(), ((R + 3) * (R + 3) - reach).sqrt()
+    outer, inner = signed(-reach * (1 - rest), -1), signed(8 * (R + 1) - reach, 1)
+    return State(x, rise - R - 2, R, distance, outer, inner, reach=reach)
 
 
 def left_right_tight(angle: Any, share: Any, tall: Any) -> State:
@@ -342,6 +415,14 @@ def left_right_detour(angle: Any, share: Any, R: Any) -> State | None:
     distance = between(R - 1, abs(R - 3), share)
     if distance < APART:
         return None
+    return State(*left_of(angle, distance), R, distance, outer=signed(outer, -1), fold=signed(fold, 1))
+
+
+def left_right_centre(angle: Any, distance: Any, wide: Any) -> State:
+    """States of LR with the left crossing, next to the centre of L: R - 3 from -rp to rp."""
+    R = 3 + wide * distance
+    outer = (distance - R - 1) * (distance + R + 1)
+    fold = distance * distance * ((1 - wide) * (1 + wide)).nonnegative_part()
     return State(*left_of(angle, distance), R, distance, outer=signed(outer, -1), fold=signed(fold, 1))
 
 
@@ -385,17 +466,10 @@ def of_arc(end: float) -> Callable[[State], tuple[Any]]:
 
 # Weights of the coordinates: an arc onto the axis depends on the place, a crossing on the two radii.
 BY_PLACE, BY_CROSSING, BY_CURVE = (0.01, 1.0, 0.1), (0.001, 1.0, 1.0), (0.01, 1.0, 1.0)
+BY_SHARES = (1.0, 1.0, 1.0, 1.0)
 
 # The radius of the middle arc of LRL from which on bounds hold.
 SMALLEST_MIDDLE = 2.0**-2
-
-# Angles all the way round.
-ROUND = (Interval(-3.1416, 0.0), Interval(0.0, 3.1416))
-
-SHARES = (Interval(0.0, 1.0),)
-
-# Short of the circles of radius R + 3 about (0, 1), and |R - 3| about (0, -1), where two circles touch at the crossing.
-SHORT = (Interval(0.0, 1.0 - 2.0**-4),)
 
 
 def octaves(lowest_power: int, highest_power: int) -> list[Interval]:
@@ -406,6 +480,22 @@ def octaves(lowest_power: int, highest_power: int) -> list[Interval]:
 def boxes(*coordinates: Iterable[Interval]) -> list[Box]:
     """All combinations of intervals."""
     return list(product(*coordinates))
+
+
+# Angles all the way round.
+ROUND = (Interval(-3.1416, 0.0), Interval(0.0, 3.1416))
+
+SHARES = (Interval(0.0, 1.0),)
+
+# Short of the circle of radius R + 3 about (0, 1), where two circles touch at the crossing.
+LONG = 1.0 - 2.0**-4
+SHORT = (Interval(0.0, LONG),)
+
+# Left and right of x = 0.
+SIDES = Interval(-1.0, -1.0), Interval(1.0, 1.0)
+
+# Closer to the centre of L than 2^-21, `fold` does not exceed 2^-46 of the square of the scale.
+CENTRE = octaves(-21, -4)
 
 
 def regions() -> list[Region]:
@@ -466,6 +556,14 @@ def regions() -> list[Region]:
             about_left,
         ),
         Region(
+            "RL, right crossing, next to its end",
+            boxes(SIDES, SHARES, SHARES, radii),
+            right_left_last,
+            lambda f, s: f(kernel.rl)(s, 1.0),
+            BY_SHARES,
+            about_left,
+        ),
+        Region(
             "LR, right crossing, R <= 2",
             boxes(ROUND, SHARES, octaves(-20, 0)),
             left_right_tight,
@@ -483,10 +581,18 @@ def regions() -> list[Region]:
         ),
         Region(
             "LR, left crossing",
-            boxes(ROUND, SHORT, wide),
+            boxes(ROUND, SHARES, wide),
             left_right_detour,
             lambda f, s: f(kernel.lr)(s, -1.0),
             BY_CROSSING,
+            about_right,
+        ),
+        Region(
+            "LR, left crossing, next to the centre of L",
+            boxes(ROUND, CENTRE, [Interval(-1.0, 1.0)]),
+            left_right_centre,
+            lambda f, s: f(kernel.lr)(s, -1.0),
+            BY_CURVE,
             about_right,
         ),
         Region(

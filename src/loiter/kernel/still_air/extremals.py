@@ -22,7 +22,7 @@ from loiter.kernel.angles import (
     snap_full_turn,
     total_angle,
 )
-from loiter.kernel.exact import beyond
+from loiter.kernel.exact import beyond, square_beyond
 from loiter.kernel.words import Word
 
 
@@ -167,14 +167,23 @@ def r(start: Start) -> Extremal:
     return Extremal(Word.R, first, straight, NO_ROTATION, NO_ROTATION)
 
 
+def within_reach(start: Start) -> float:
+    """(R + 3)^2 - rm^2: not negative where the circle of R meets the last circle of L, so where RL exists.
+
+    It is 4 (R + y + 2) - `outer`, and not computed as 8 (R + 1) - `inner`: next to (0, -R - 2), where it vanishes and
+    RL is the fastest, neither term is negative, so that no digits are lost. T varies with its square root.
+    """
+    return 4.0 * (start.R + start.y + 2.0) - start.outer
+
+
 def rl(start: Start, branch: float) -> Extremal:
     """RL: right to the crossing with the last circle (R + 1 about (0, -1)) where x1 has `branch`'s sign; then left.
 
-    The two circles meet at y1 = R - q/4, x1^2 = p q / 16 with q = `inner` = rm^2 - (R - 1)^2 and p = (R + 3)^2 - rm^2 =
-    8 (R + 1) - q.
+    The two circles meet at y1 = R - q/4, x1^2 = p q / 16 with q = `inner` = rm^2 - (R - 1)^2 and p = `within_reach` =
+    (R + 3)^2 - rm^2.
     """
     x, y, R, arc_tolerance, _, inner, _ = start
-    p = 8.0 * (R + 1.0) - inner
+    p = within_reach(start)
     x1 = branch * 0.25 * sqrt(max(p * inner, 0.0))
     radius2 = squared_distance(x, y, 1.0)
     first = snap_full_turn(rotation(x, y - 1.0, x1, R - 1.0 - 0.25 * inner), radius2, arc_tolerance)
@@ -186,12 +195,13 @@ def lr(start: Start, branch: float) -> Extremal:
     """LR, R > 1: left to the crossing with the circle (R - 1 about (0, 1)) where x1 has `branch`'s sign; then right.
 
     The two circles meet at y1 = R - q/4, x1^2 = p q / 16 with q = -`outer` = (R + 1)^2 - rp^2, p = `fold` =
-    rp^2 - (R - 3)^2.
+    rp^2 - (R - 3)^2. So y1 + 1 is R + 1 - q/4 or 3 - R + p/4, and y1 - 1 is R - 1 - q/4: those forms are used whose
+    terms are no longer than the arc's radius, however small that is.
     """
     x, y, R, arc_tolerance, outer, _, fold = start
     x1 = branch * 0.25 * sqrt(max(-outer * fold, 0.0))
     radius2 = squared_distance(x, y, -1.0)
-    first = snap_full_turn(rotation(x1, R + 1.0 + 0.25 * outer, x, y + 1.0), radius2, arc_tolerance)
+    first = snap_full_turn(rotation(x1, 3.0 - R + 0.25 * fold, x, y + 1.0), radius2, arc_tolerance)
     last = snap_full_turn((x1, R - 1.0 + 0.25 * outer), (R - 1.0) * (R - 1.0), arc_tolerance)
     return Extremal(Word.LR, first, 0.0 if R > 1.0 and outer <= 0.0 and fold >= 0.0 else inf, last, NO_ROTATION)
 
@@ -200,20 +210,22 @@ def lrl(start: Start) -> Extremal:
     """Left to the switching curve at (xa, ya), right for more than pi to (xb, yb) on the last circle, left.
 
     With xa / ya = -xb / yb = m and a = 1 + m^2, the circles give a ya^2 + 2 ya = k = rp^2 - 1, a yb^2 + 2 yb = K =
-    R (R + 2) and a (ya + yb) = 2; hence yb - ya = d = (K - k)/4 = -outer/4 and, for s = ya + yb = 2/a, the larger root
-    of 3 s^2 - 2 h s + d^2 = 0. Quantities that vanish in places are not computed as differences: ya comes from k, and
-    w = 2 - s = m^2 s is -`fold` v / (16 (6 - h + sqrt(D))), v = (R + 5)^2 - rp^2 = 8 (R + 3) - `outer`; so LRL needs
-    rp <= 3 - R.
+    R (R + 2) and a (ya + yb) = 2; hence yb - ya = d = (K - k)/4 = -outer/4 and, for s = ya + yb = 2/a and
+    h = (K + k)/2, the larger root of 3 s^2 - 2 h s + d^2 = 0. Quantities that vanish in places are not computed as
+    differences of others: ya comes from k, and w = 2 - s = m^2 s is the smaller root of 3 w^2 - 2 gap w + v = 0 with
+    v = -`fold` ((R + 5)^2 - rp^2)/16 and gap = 6 - h = 3 - (R - 1)^2 - `fold`/2, whose terms have one sign where LRL
+    is the fastest; so LRL needs rp <= 3 - R.
     """
     x, y, R, arc_tolerance, outer, _, fold = start
-    k, K, d = x * x + y * (y + 2.0), R * (R + 2.0), -0.25 * outer
-    h = K + 0.5 * outer
-    D = h * h - 3.0 * d * d
-    exists = R <= 3.0 and fold <= 0.0 and D >= 0.0 and h < 6.0
+    k, d = x * x + y * (y + 2.0), -0.25 * outer
+    gap = -0.5 * fold - square_beyond(R - 1.0, 3.0)
+    v = -0.0625 * fold * (8.0 * (R + 3.0) - outer)
+    D = gap * gap - 3.0 * v
+    exists = R <= 3.0 and fold <= 0.0 and D >= 0.0 and gap > 0.0
     root = sqrt(max(D, 0.0))
-    above, below = h + root, 6.0 - h + root if exists else 1.0
+    above, below = 6.0 - gap + root, gap + root if exists else 1.0
     share = 1.0 / (above * below)
-    w = -fold * (8.0 * (R + 3.0) - outer) * 0.0625 * above * share
+    w = v * above * share
     a = 6.0 * below * share
     m = sqrt(max(0.5 * a * w, 0.0))
     # ya = k/q; every vector is multiplied by q.
@@ -285,9 +297,10 @@ def fastest(x: float, y: float, R: float, arc_tolerance: float, exact: bool) -> 
     """The least T and its extremal, among at most three words: one for each first turn, and the `detour`.
 
     `exact` says that there is no tolerance. Then a start counts as on a last circle only if it is there up to rounding,
-    and the single arc replaces the words of which it is the limit. It does not replace LRL where it would cross the
-    axis from y > 0, which no optimal first arc does. With a tolerance, where a start may lie beside a circle, the
-    single arcs compete with the other words, so that a tolerance never makes T larger.
+    and the single arc replaces the words of which it is the limit. It does not replace them where it takes more than
+    half a turn from y > 0, which no optimal single arc does: from beside the circle and just past the target it would
+    be almost a whole turn. With a tolerance, where a start may lie beside a circle, the single arcs compete with the
+    other words, so that a tolerance never makes T larger.
 
     Without a tolerance no times are compared for R = 1, y >= 0 (paper, section 6): the word that begins with L wins
     where it exists and its first arc is no longer than half a turn, up to the switching curve.
@@ -296,8 +309,8 @@ def fastest(x: float, y: float, R: float, arc_tolerance: float, exact: bool) -> 
     right, only_right = right_first(start), r(start)
     left, only_left = left_first(start), l(start)
     if exact:
-        left = select(reaches(only_left) and (is_at_most_half_turn(only_left.first) or y <= 0.0), only_left, left)
-        right = select(reaches(only_right), only_right, right)
+        left = select(is_limit(only_left, y), only_left, left)
+        right = select(is_limit(only_right, y), only_right, right)
     if exact and R == 1.0 and not y < 0.0:
         best = select(reaches(left) and is_at_most_half_turn(left.first), left, right)
         return duration(best), best
@@ -308,6 +321,11 @@ def fastest(x: float, y: float, R: float, arc_tolerance: float, exact: bool) -> 
         least, best = faster_of(least, best, only_left)
         least, best = faster_of(least, best, only_right)
     return least, best
+
+
+def is_limit(arc: Extremal, y: float) -> bool:
+    """Whether a single arc replaces the words of which it is the limit: it reaches the target, and may be optimal."""
+    return reaches(arc) and (is_at_most_half_turn(arc.first) or y <= 0.0)
 
 
 def faster_of(least: float, best: Extremal, other: Extremal) -> tuple[float, Extremal]:

@@ -287,7 +287,7 @@ def near(inwards_sign: Possible, outwards_sign: Possible, wide: Possible) -> int
 
 
 def rounding_errors() -> Certainty:
-    """`exact.beyond` adds all errors of first order; `two_sum` and `two_product` are the published algorithms."""
+    """`exact.beyond` adds all errors of first order, `square_beyond` its only one; sums and products are published."""
     x, y, R, k, *symbols, _ = variables("x y R k s t1 t2 p q u")
     sums = iter(symbols[i] for i in (0, 1, 2, 5))
     products = iter(symbols[i] for i in (3, 4))
@@ -306,7 +306,16 @@ def rounding_errors() -> Certainty:
     difference = x * x + (y - R) * (y + R + k)
     # es (et + ek), which is below 2^-98 of the square of the scale.
     zero("`beyond`", difference - found - errors[0] * (errors[1] + errors[2]))
-    return Certainty(1 + published_algorithms(), 0)
+    return Certainty(1 + square_beyond() + published_algorithms(), 0)
+
+
+def square_beyond() -> int:
+    """`exact.square_beyond` is a^2 - b, with the error of the square added last; the number of cases."""
+    a, b, p, e = map(Traced, "abpe")
+    product = StandIn("two_product", (a, a), (p, e))
+    found = rebinding({"two_product": product})(exact.square_beyond)(a, b)
+    require(found.text == ((p - b) + e).text, "`square_beyond` is not a^2 - b with the error of the square")
+    return 1
 
 
 class Traced:

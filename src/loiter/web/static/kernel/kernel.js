@@ -4,7 +4,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 39d341ac31f839b08554171046f741b8b94ca407bc28267c11f056b1e8244a09
+ * SHA-256 of the source: 8eeb0b9488bfb779a0c78a6e19c4f1ff72c2722cf5ac3325cde7f1e2eff785fc
  */
 
 // What Python has and JavaScript has not: the first of two that tie, and quotients rounded down. Integers are doubles
@@ -842,6 +842,18 @@ export function rsl(start) {
 }
 
 /**
+ * (R + 3)^2 - rm^2: not negative where the circle of R meets the last circle of L, so where RL exists.
+ *
+ * It is 4 (R + y + 2) - `outer`, and not computed as 8 (R + 1) - `inner`: next to (0, -R - 2), where it vanishes
+ * and RL is the fastest, neither term is negative, so that no digits are lost. T varies with its square root.
+ *
+ * @type {(start: Start) => number}
+ */
+export function within_reach(start) {
+    return 4.0 * (start.R + start.y + 2.0) - start.outer;
+}
+
+/**
  * The squared distance from (0, centre), accurate even near zero; computed from `beyond` it would lose digits.
  *
  * @type {(x: number, y: number, centre: number) => number}
@@ -862,14 +874,14 @@ export function rotation(ax, ay, bx, by) {
 /**
  * RL: right to the crossing with the last circle (R + 1 about (0, -1)) where x1 has `branch`'s sign; then left.
  *
- * The two circles meet at y1 = R - q/4, x1^2 = p q / 16 with q = `inner` = rm^2 - (R - 1)^2 and p = (R + 3)^2 -
- * rm^2 = 8 (R + 1) - q.
+ * The two circles meet at y1 = R - q/4, x1^2 = p q / 16 with q = `inner` = rm^2 - (R - 1)^2 and p = `within_reach`
+ * = (R + 3)^2 - rm^2.
  *
  * @type {(start: Start, branch: number) => Extremal}
  */
 export function rl(start, branch) {
     const x = start.x, y = start.y, R = start.R, arc_tolerance = start.arc_tolerance, inner = start.inner;
-    const p = 8.0 * (R + 1.0) - inner;
+    const p = within_reach(start);
     const x1 = branch * 0.25 * Math.sqrt(max_real(p * inner, 0.0));
     const radius2 = squared_distance(x, y, 1.0);
     /** @type {[number, number]} */ const first = snap_full_turn(rotation(x, y - 1.0, x1, R - 1.0 - 0.25 * inner),
@@ -952,27 +964,40 @@ export function r(start) {
 }
 
 /**
+ * The difference a^2 - b with nearly full relative accuracy even near zero, for |a| < 2^480.
+ *
+ * @type {(a: number, b: number) => number}
+ */
+export function square_beyond(a, b) {
+    const two_product_1 = two_product(a, a);
+    const p = two_product_1[0], e = two_product_1[1];
+    return p - b + e;
+}
+
+/**
  * Left to the switching curve at (xa, ya), right for more than pi to (xb, yb) on the last circle, left.
  *
  * With xa / ya = -xb / yb = m and a = 1 + m^2, the circles give a ya^2 + 2 ya = k = rp^2 - 1, a yb^2 + 2 yb = K = R
- * (R + 2) and a (ya + yb) = 2; hence yb - ya = d = (K - k)/4 = -outer/4 and, for s = ya + yb = 2/a, the larger root
- * of 3 s^2 - 2 h s + d^2 = 0. Quantities that vanish in places are not computed as differences: ya comes from k,
- * and w = 2 - s = m^2 s is -`fold` v / (16 (6 - h + sqrt(D))), v = (R + 5)^2 - rp^2 = 8 (R + 3) - `outer`; so LRL
- * needs rp <= 3 - R.
+ * (R + 2) and a (ya + yb) = 2; hence yb - ya = d = (K - k)/4 = -outer/4 and, for s = ya + yb = 2/a and h = (K +
+ * k)/2, the larger root of 3 s^2 - 2 h s + d^2 = 0. Quantities that vanish in places are not computed as
+ * differences of others: ya comes from k, and w = 2 - s = m^2 s is the smaller root of 3 w^2 - 2 gap w + v = 0 with
+ * v = -`fold` ((R + 5)^2 - rp^2)/16 and gap = 6 - h = 3 - (R - 1)^2 - `fold`/2, whose terms have one sign where LRL
+ * is the fastest; so LRL needs rp <= 3 - R.
  *
  * @type {(start: Start) => Extremal}
  */
 export function lrl(start) {
     const x = start.x, y = start.y, R = start.R, arc_tolerance = start.arc_tolerance, outer = start.outer, fold =
             start.fold;
-    const k = x * x + y * (y + 2.0), K = R * (R + 2.0), d = -0.25 * outer;
-    const h = K + 0.5 * outer;
-    const D = h * h - 3.0 * d * d;
-    /** @type {boolean} */ const exists = R <= 3.0 && fold <= 0.0 && D >= 0.0 && h < 6.0;
+    const k = x * x + y * (y + 2.0), d = -0.25 * outer;
+    const gap = -0.5 * fold - square_beyond(R - 1.0, 3.0);
+    const v = -0.0625 * fold * (8.0 * (R + 3.0) - outer);
+    const D = gap * gap - 3.0 * v;
+    /** @type {boolean} */ const exists = R <= 3.0 && fold <= 0.0 && D >= 0.0 && gap > 0.0;
     const root = Math.sqrt(max_real(D, 0.0));
-    const above = h + root, below = exists ? 6.0 - h + root : 1.0;
+    const above = 6.0 - gap + root, below = exists ? gap + root : 1.0;
     const share = 1.0 / (above * below);
-    const w = -fold * (8.0 * (R + 3.0) - outer) * 0.0625 * above * share;
+    const w = v * above * share;
     const a = 6.0 * below * share;
     const m = Math.sqrt(max_real(0.5 * a * w, 0.0));
     // ya = k/q; every vector is multiplied by q.
@@ -1009,7 +1034,8 @@ export function reaches(extremal) {
  * LR, R > 1: left to the crossing with the circle (R - 1 about (0, 1)) where x1 has `branch`'s sign; then right.
  *
  * The two circles meet at y1 = R - q/4, x1^2 = p q / 16 with q = -`outer` = (R + 1)^2 - rp^2, p = `fold` = rp^2 -
- * (R - 3)^2.
+ * (R - 3)^2. So y1 + 1 is R + 1 - q/4 or 3 - R + p/4, and y1 - 1 is R - 1 - q/4: those forms are used whose terms
+ * are no longer than the arc's radius, however small that is.
  *
  * @type {(start: Start, branch: number) => Extremal}
  */
@@ -1018,7 +1044,7 @@ export function lr(start, branch) {
             start.fold;
     const x1 = branch * 0.25 * Math.sqrt(max_real(-outer * fold, 0.0));
     const radius2 = squared_distance(x, y, -1.0);
-    /** @type {[number, number]} */ const first = snap_full_turn(rotation(x1, R + 1.0 + 0.25 * outer, x, y + 1.0),
+    /** @type {[number, number]} */ const first = snap_full_turn(rotation(x1, 3.0 - R + 0.25 * fold, x, y + 1.0),
             radius2, arc_tolerance);
     /** @type {[number, number]} */ const last = snap_full_turn([x1, R - 1.0 + 0.25 * outer], (R - 1.0) * (R - 1.0),
             arc_tolerance);
@@ -1076,6 +1102,15 @@ export function l(start) {
 export function is_at_most_half_turn(rotated) {
     const cross = rotated[0];
     return cross >= 0.0;
+}
+
+/**
+ * Whether a single arc replaces the words of which it is the limit: it reaches the target, and may be optimal.
+ *
+ * @type {(arc: Extremal, y: number) => boolean}
+ */
+export function is_limit(arc, y) {
+    return reaches(arc) && (is_at_most_half_turn(arc.first) || y <= 0.0);
 }
 
 /**
@@ -1187,9 +1222,10 @@ export function detour(start) {
  * The least T and its extremal, among at most three words: one for each first turn, and the `detour`.
  *
  * `exact` says that there is no tolerance. Then a start counts as on a last circle only if it is there up to
- * rounding, and the single arc replaces the words of which it is the limit. It does not replace LRL where it would
- * cross the axis from y > 0, which no optimal first arc does. With a tolerance, where a start may lie beside a
- * circle, the single arcs compete with the other words, so that a tolerance never makes T larger.
+ * rounding, and the single arc replaces the words of which it is the limit. It does not replace them where it takes
+ * more than half a turn from y > 0, which no optimal single arc does: from beside the circle and just past the
+ * target it would be almost a whole turn. With a tolerance, where a start may lie beside a circle, the single arcs
+ * compete with the other words, so that a tolerance never makes T larger.
  *
  * Without a tolerance no times are compared for R = 1, y >= 0 (paper, section 6): the word that begins with L wins
  * where it exists and its first arc is no longer than half a turn, up to the switching curve.
@@ -1203,8 +1239,8 @@ export function extremals_fastest(x, y, R, arc_tolerance, exact) {
     let left = left_first(start);
     const only_left = l(start);
     if (exact) {
-        left = select(reaches(only_left) && (is_at_most_half_turn(only_left.first) || y <= 0.0), only_left, left);
-        right = select(reaches(only_right), only_right, right);
+        left = select(is_limit(only_left, y), only_left, left);
+        right = select(is_limit(only_right, y), only_right, right);
     }
     let best;
     if (exact && R === 1.0 && !(y < 0.0)) {
