@@ -81,7 +81,7 @@ LONGEST = 60
 
 # What is checked last, as it is slow, and the functions that only `theorem 2 b` is about.
 SLOW = "theorem 2 i", "theorem 2 a", "lemma 1", "theorem 2 b"
-SELECTING = "left_first", "right_first", "detour", "fastest", "faster_of", "select"
+SELECTING = "left_first", "right_first", "detour", "fastest", "is_limit", "faster_of", "select"
 
 
 class Mutant(NamedTuple):
