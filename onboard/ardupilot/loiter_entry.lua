@@ -2,7 +2,7 @@
 --
 -- Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
 --
--- SHA-256 of the source: f50dac1aba7967d60aad679ffa4e1d14aede1044a7f99049c476e96c47c825d5
+-- SHA-256 of the source: 1070c6d3f8671b68060687868d9500b0869cc671de1e483dbe189b961d53222b
 --
 -- When a switch asks for it, this script flies a plane onto the holding circle around its present target in least
 -- time, and then leaves the circle to ArduPlane: loiter_entry.md. It works by GUIDED_CHANGE_HEADING in GUIDED: the target
@@ -1874,9 +1874,9 @@ function law.is_at_most_half_turn(rotated)
     return cross >= 0.0
 end
 
--- Whether a single arc replaces the words of which it is the limit: it reaches the target, and may be optimal.
-function law.is_limit(arc, y)
-    return law.reaches(arc) and (law.is_at_most_half_turn(arc.first) or y <= 0.0)
+-- Whether a single arc replaces the words of which it is the limit: of at most half a turn, or of any length.
+function law.is_limit(arc, any_length)
+    return law.reaches(arc) and (law.is_at_most_half_turn(arc.first) or any_length)
 end
 
 -- The rotation, less half a turn where it is half a turn or more, and the count `halves` of these half turns.
@@ -1923,10 +1923,11 @@ end
 -- The least T and its extremal, among at most three words: one for each first turn, and the `detour`.
 --
 -- `exact` says that there is no tolerance. Then a start counts as on a last circle only if it is there up to
--- rounding, and the single arc replaces the words of which it is the limit. It does not replace them where it takes
--- more than half a turn from y > 0, which no optimal single arc does: from beside the circle and just past the
--- target it would be almost a whole turn. With a tolerance, where a start may lie beside a circle, the single arcs
--- compete with the other words, so that a tolerance never makes T larger.
+-- rounding, and the single arc replaces the words of which it is the limit. From y > 0 an arc of more than half a
+-- turn is not optimal: L does not replace LRL there, where it would cross the axis, nor R the words from beyond the
+-- last circle of L, from where, just past the target, it would be almost a whole turn. With a tolerance, where a
+-- start may lie beside a circle, the single arcs compete with the other words, so that a tolerance never makes T
+-- larger.
 --
 -- Without a tolerance no times are compared for R = 1, y >= 0 (paper, section 6): the word that begins with L wins
 -- where it exists and its first arc is no longer than half a turn, up to the switching curve.
@@ -1935,8 +1936,8 @@ function law.fastest(x, y, R, arc_tolerance, exact)
     local right, only_right = law.right_first(start), law.r(start)
     local left, only_left = law.left_first(start), law.l(start)
     if exact then
-        left = law.select(law.is_limit(only_left, y), only_left, left)
-        right = law.select(law.is_limit(only_right, y), only_right, right)
+        left = law.select(law.is_limit(only_left, y <= 0.0), only_left, left)
+        right = law.select(law.is_limit(only_right, y <= 0.0 or start.outer <= 0.0), only_right, right)
     end
     local best
     if exact and R == 1.0 and not (y < 0.0) then

@@ -6,7 +6,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: affa78a4c0529b3f1eb050620c18b1c5e69f45f1341e7336d6559a3a55cb5020
+ * SHA-256 of the source: 62a2036028a8c0f179e1d89311b959c3e7eda35ffcca7ac05f5f23bcd6618e4b
  */
 #ifndef LOITER_ONBOARD_H
 #define LOITER_ONBOARD_H

@@ -17,7 +17,7 @@ EARLIER = [
     ("within_reach", "4.0 * (start.R + start.y + 2.0) - start.outer", "8.0 * (start.R + 1.0) - start.inner"),
     ("lr", "3.0 - R + 0.25 * fold", "R + 1.0 + 0.25 * outer"),
     ("lrl", "gap * gap - 3.0 * v", "(6.0 - gap) * (6.0 - gap) - 3.0 * d * d"),
-    ("is_limit", " and (is_at_most_half_turn(arc.first) or y <= 0.0)", ""),
+    ("is_limit", " and (is_at_most_half_turn(arc.first) or any_length)", ""),
 ]
 
 

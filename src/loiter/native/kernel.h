@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: cfd41fe115ba47a6900344a58e71c0b6477bd30858cf84745487fb7a68a9f7b0
+ * SHA-256 of the source: d8a44d5def8efbe5da7efe19691a3b26e17e0674e1010ad23699dfdf367ad98a
  */
 #ifndef LOITER_KERNEL_H
 #define LOITER_KERNEL_H
@@ -774,9 +774,9 @@ static inline bool is_at_most_half_turn(real_2 rotated) {
     return cross >= 0.0;
 }
 
-/* Whether a single arc replaces the words of which it is the limit: it reaches the target, and may be optimal. */
-static inline bool is_limit(Extremal arc, real y) {
-    return reaches(arc) && (is_at_most_half_turn(arc.first) || y <= 0.0);
+/* Whether a single arc replaces the words of which it is the limit: of at most half a turn, or of any length. */
+static inline bool is_limit(Extremal arc, bool any_length) {
+    return reaches(arc) && (is_at_most_half_turn(arc.first) || any_length);
 }
 
 /* The rotation, less half a turn where it is half a turn or more, and the count `halves` of these half turns. */
@@ -832,10 +832,11 @@ static inline Extremal detour(Start start) {
 /* The least T and its extremal, among at most three words: one for each first turn, and the `detour`.
  *
  * `exact` says that there is no tolerance. Then a start counts as on a last circle only if it is there up to
- * rounding, and the single arc replaces the words of which it is the limit. It does not replace them where it takes
- * more than half a turn from y > 0, which no optimal single arc does: from beside the circle and just past the
- * target it would be almost a whole turn. With a tolerance, where a start may lie beside a circle, the single arcs
- * compete with the other words, so that a tolerance never makes T larger.
+ * rounding, and the single arc replaces the words of which it is the limit. From y > 0 an arc of more than half a
+ * turn is not optimal: L does not replace LRL there, where it would cross the axis, nor R the words from beyond the
+ * last circle of L, from where, just past the target, it would be almost a whole turn. With a tolerance, where a
+ * start may lie beside a circle, the single arcs compete with the other words, so that a tolerance never makes T
+ * larger.
  *
  * Without a tolerance no times are compared for R = 1, y >= 0 (paper, section 6): the word that begins with L wins
  * where it exists and its first arc is no longer than half a turn, up to the switching curve.
@@ -847,8 +848,8 @@ static inline real_Extremal extremals_fastest(real x, real y, real R, real arc_t
     Extremal left = left_first(start);
     const Extremal only_left = extremals_l(start);
     if (exact) {
-        left = extremals_select(is_limit(only_left, y), only_left, left);
-        right = extremals_select(is_limit(only_right, y), only_right, right);
+        left = extremals_select(is_limit(only_left, y <= 0.0), only_left, left);
+        right = extremals_select(is_limit(only_right, y <= 0.0 || start.outer <= 0.0), only_right, right);
     }
     Extremal best;
     if (exact && R == 1.0 && !(y < 0.0)) {

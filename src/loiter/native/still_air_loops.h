@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 793003626c1257a10c2f5a448c0e09bb785cdd259fc5acf601068f4d50c1f01b
+ * SHA-256 of the source: 864f94400bdc5d75745543b4ca7783ab5b5d8e2afaed109dd0ba1a01ee84fa7d
  */
 #ifndef LOITER_STILL_AIR_LOOPS_H
 #define LOITER_STILL_AIR_LOOPS_H
@@ -487,9 +487,9 @@ static inline LOITER_ALWAYS_INLINE bool is_at_most_half_turn(real_2 rotated) {
     return cross >= 0.0;
 }
 
-/* Whether a single arc replaces the words of which it is the limit: it reaches the target, and may be optimal. */
-static inline LOITER_ALWAYS_INLINE bool is_limit(Extremal arc, real y) {
-    return reaches(arc) && (is_at_most_half_turn(arc.first) || y <= 0.0);
+/* Whether a single arc replaces the words of which it is the limit: of at most half a turn, or of any length. */
+static inline LOITER_ALWAYS_INLINE bool is_limit(Extremal arc, bool any_length) {
+    return reaches(arc) && (is_at_most_half_turn(arc.first) || any_length);
 }
 
 /* The rotation, less half a turn where it is half a turn or more, and the count `halves` of these half turns. */
@@ -574,10 +574,11 @@ static inline LOITER_ALWAYS_INLINE Extremal detour(Start start) {
 /* The least T and its extremal, among at most three words: one for each first turn, and the `detour`.
  *
  * `exact` says that there is no tolerance. Then a start counts as on a last circle only if it is there up to
- * rounding, and the single arc replaces the words of which it is the limit. It does not replace them where it takes
- * more than half a turn from y > 0, which no optimal single arc does: from beside the circle and just past the
- * target it would be almost a whole turn. With a tolerance, where a start may lie beside a circle, the single arcs
- * compete with the other words, so that a tolerance never makes T larger.
+ * rounding, and the single arc replaces the words of which it is the limit. From y > 0 an arc of more than half a
+ * turn is not optimal: L does not replace LRL there, where it would cross the axis, nor R the words from beyond the
+ * last circle of L, from where, just past the target, it would be almost a whole turn. With a tolerance, where a
+ * start may lie beside a circle, the single arcs compete with the other words, so that a tolerance never makes T
+ * larger.
  *
  * Without a tolerance no times are compared for R = 1, y >= 0 (paper, section 6): the word that begins with L wins
  * where it exists and its first arc is no longer than half a turn, up to the switching curve.
@@ -589,8 +590,8 @@ static inline LOITER_ALWAYS_INLINE real_Extremal fastest(real x, real y, real R,
     Extremal left = left_first(start);
     const Extremal only_left = extremals_l(start);
     if (exact) {
-        left = branchless_select(is_limit(only_left, y), only_left, left);
-        right = branchless_select(is_limit(only_right, y), only_right, right);
+        left = branchless_select(is_limit(only_left, y <= 0.0), only_left, left);
+        right = branchless_select(is_limit(only_right, y <= 0.0 || start.outer <= 0.0), only_right, right);
     }
     Extremal best;
     if (exact && R == 1.0 && !(y < 0.0)) {

@@ -297,10 +297,10 @@ def fastest(x: float, y: float, R: float, arc_tolerance: float, exact: bool) -> 
     """The least T and its extremal, among at most three words: one for each first turn, and the `detour`.
 
     `exact` says that there is no tolerance. Then a start counts as on a last circle only if it is there up to rounding,
-    and the single arc replaces the words of which it is the limit. It does not replace them where it takes more than
-    half a turn from y > 0, which no optimal single arc does: from beside the circle and just past the target it would
-    be almost a whole turn. With a tolerance, where a start may lie beside a circle, the single arcs compete with the
-    other words, so that a tolerance never makes T larger.
+    and the single arc replaces the words of which it is the limit. From y > 0 an arc of more than half a turn is not
+    optimal: L does not replace LRL there, where it would cross the axis, nor R the words from beyond the last circle of
+    L, from where, just past the target, it would be almost a whole turn. With a tolerance, where a start may lie beside
+    a circle, the single arcs compete with the other words, so that a tolerance never makes T larger.
 
     Without a tolerance no times are compared for R = 1, y >= 0 (paper, section 6): the word that begins with L wins
     where it exists and its first arc is no longer than half a turn, up to the switching curve.
@@ -309,8 +309,8 @@ def fastest(x: float, y: float, R: float, arc_tolerance: float, exact: bool) -> 
     right, only_right = right_first(start), r(start)
     left, only_left = left_first(start), l(start)
     if exact:
-        left = select(is_limit(only_left, y), only_left, left)
-        right = select(is_limit(only_right, y), only_right, right)
+        left = select(is_limit(only_left, y <= 0.0), only_left, left)
+        right = select(is_limit(only_right, y <= 0.0 or start.outer <= 0.0), only_right, right)
     if exact and R == 1.0 and not y < 0.0:
         best = select(reaches(left) and is_at_most_half_turn(left.first), left, right)
         return duration(best), best
@@ -323,9 +323,9 @@ def fastest(x: float, y: float, R: float, arc_tolerance: float, exact: bool) -> 
     return least, best
 
 
-def is_limit(arc: Extremal, y: float) -> bool:
-    """Whether a single arc replaces the words of which it is the limit: it reaches the target, and may be optimal."""
-    return reaches(arc) and (is_at_most_half_turn(arc.first) or y <= 0.0)
+def is_limit(arc: Extremal, any_length: bool) -> bool:
+    """Whether a single arc replaces the words of which it is the limit: of at most half a turn, or of any length."""
+    return reaches(arc) and (is_at_most_half_turn(arc.first) or any_length)
 
 
 def faster_of(least: float, best: Extremal, other: Extremal) -> tuple[float, Extremal]:

@@ -4,7 +4,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 8eeb0b9488bfb779a0c78a6e19c4f1ff72c2722cf5ac3325cde7f1e2eff785fc
+ * SHA-256 of the source: e035a90d83294f18a169c91d5e40662c7fe831aad76214e922badae1728082fa
  */
 
 // What Python has and JavaScript has not: the first of two that tie, and quotients rounded down. Integers are doubles
@@ -1105,12 +1105,12 @@ export function is_at_most_half_turn(rotated) {
 }
 
 /**
- * Whether a single arc replaces the words of which it is the limit: it reaches the target, and may be optimal.
+ * Whether a single arc replaces the words of which it is the limit: of at most half a turn, or of any length.
  *
- * @type {(arc: Extremal, y: number) => boolean}
+ * @type {(arc: Extremal, any_length: boolean) => boolean}
  */
-export function is_limit(arc, y) {
-    return reaches(arc) && (is_at_most_half_turn(arc.first) || y <= 0.0);
+export function is_limit(arc, any_length) {
+    return reaches(arc) && (is_at_most_half_turn(arc.first) || any_length);
 }
 
 /**
@@ -1222,10 +1222,11 @@ export function detour(start) {
  * The least T and its extremal, among at most three words: one for each first turn, and the `detour`.
  *
  * `exact` says that there is no tolerance. Then a start counts as on a last circle only if it is there up to
- * rounding, and the single arc replaces the words of which it is the limit. It does not replace them where it takes
- * more than half a turn from y > 0, which no optimal single arc does: from beside the circle and just past the
- * target it would be almost a whole turn. With a tolerance, where a start may lie beside a circle, the single arcs
- * compete with the other words, so that a tolerance never makes T larger.
+ * rounding, and the single arc replaces the words of which it is the limit. From y > 0 an arc of more than half a
+ * turn is not optimal: L does not replace LRL there, where it would cross the axis, nor R the words from beyond the
+ * last circle of L, from where, just past the target, it would be almost a whole turn. With a tolerance, where a
+ * start may lie beside a circle, the single arcs compete with the other words, so that a tolerance never makes T
+ * larger.
  *
  * Without a tolerance no times are compared for R = 1, y >= 0 (paper, section 6): the word that begins with L wins
  * where it exists and its first arc is no longer than half a turn, up to the switching curve.
@@ -1239,8 +1240,8 @@ export function extremals_fastest(x, y, R, arc_tolerance, exact) {
     let left = left_first(start);
     const only_left = l(start);
     if (exact) {
-        left = select(is_limit(only_left, y), only_left, left);
-        right = select(is_limit(only_right, y), only_right, right);
+        left = select(is_limit(only_left, y <= 0.0), only_left, left);
+        right = select(is_limit(only_right, y <= 0.0 || start.outer <= 0.0), only_right, right);
     }
     let best;
     if (exact && R === 1.0 && !(y < 0.0)) {
