@@ -4,7 +4,6 @@
 A name that goes, or that changes its meaning, breaks somebody's program.
 """
 
-import asyncio
 import importlib
 import inspect
 import json
@@ -111,16 +110,12 @@ def tables():
 
 
 def service():
-    import httpx
+    from starlette.testclient import TestClient
 
     from loiter.web.app import create_app
 
-    async def fetched():
-        transport = httpx.ASGITransport(create_app(None))
-        async with httpx.AsyncClient(transport=transport, base_url="http://127.0.0.1") as client:
-            return (await client.get("/openapi.json")).json()
-
-    schema = asyncio.run(fetched())
+    # In a thread of its own: a browser that another test has open has the loop of this one.
+    schema = TestClient(create_app(None), base_url="http://127.0.0.1").get("/openapi.json").json()
     paths = sorted(f"{kind.upper()} {path}" for path, kinds in schema["paths"].items() for kind in kinds)
     fields = {name for part in schema["components"]["schemas"].values() for name in part.get("properties", {})}
     return {"paths": paths, "fields": sorted(fields)}

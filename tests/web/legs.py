@@ -1,6 +1,6 @@
 """Legs by the page's engine, in Node, beside the library's: times, words, sentences, tracks and files.
 
-`PYTHONPATH=src:tests:. python -m web.legs 1000` compares that many legs and counts what they were.
+`python -m web.legs 1000` compares that many legs and counts what they were.
 """
 
 import random

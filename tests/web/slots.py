@@ -1,6 +1,6 @@
 """The page's engine beside the library for scenes with a slot.
 
-`PYTHONPATH=src:tests:. python -m web.slots 1000` compares that many scenes and counts the differences.
+`python -m web.slots 1000` compares that many scenes and counts the differences.
 """
 
 import random
