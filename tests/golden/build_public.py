@@ -110,12 +110,17 @@ def tables():
 
 
 def service():
-    from starlette.testclient import TestClient
+    import httpx
 
     from loiter.web.app import create_app
+    from web.serving import run_async
 
-    # In a thread of its own: a browser that another test has open has the loop of this one.
-    schema = TestClient(create_app(None), base_url="http://127.0.0.1").get("/openapi.json").json()
+    async def fetched():
+        transport = httpx.ASGITransport(create_app(None))
+        async with httpx.AsyncClient(transport=transport, base_url="http://127.0.0.1") as client:
+            return (await client.get("/openapi.json")).json()
+
+    schema = run_async(fetched())
     paths = sorted(f"{kind.upper()} {path}" for path, kinds in schema["paths"].items() for kind in kinds)
     fields = {name for part in schema["components"]["schemas"].values() for name in part.get("properties", {})}
     return {"paths": paths, "fields": sorted(fields)}
