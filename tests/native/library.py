@@ -76,6 +76,8 @@ class Library:
         self.c.loiter_miss.restype = c_double
         self.c.loiter_fastest_in_wind.argtypes = [POINTER(CProblem)]
         self.c.loiter_fastest_in_wind.restype = CWindEntry
+        self.c.loiter_first_in_slot.argtypes = [POINTER(CProblem), c_double]
+        self.c.loiter_first_in_slot.restype = CWindEntry
 
     def optimum(self, x, y, R, side, tolerance):
         """Status, maneuver and miss; None for the last two where there is nothing to solve."""
@@ -93,6 +95,10 @@ class Library:
     def fastest(self, problem):
         """`wind_search.fastest`."""
         return _entry(self.c.loiter_fastest_in_wind(byref(CProblem(*problem))))
+
+    def first_in_slot(self, problem, phase):
+        """`slots.first_in_slot`."""
+        return _entry(self.c.loiter_first_in_slot(byref(CProblem(*problem)), phase))
 
     def local_minima(self, problem):
         """`wind_search.local_minima`."""
