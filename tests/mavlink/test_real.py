@@ -79,7 +79,7 @@ def test_a_real_autopilot_keeps_the_mission_and_is_not_flying(name, tmp_path, re
             assert (summary.items, summary.cut) == (len(new.items), ())
             back = download(connection).items
             assert [(item.command, item.params) for item in back] == [(item.command, item.params) for item in new.items]
-        with pytest.raises(LinkFailed, match=r"is not in the air, and is not told to fly; it has the mission"):
+        with pytest.raises(LinkFailed, match=r"is not in the air: the mission is not started; it has the mission"):
             upload(new, connection, start=True)
         with closing(watch(connection, Orbit(0.0, 0.0, 80.0), frame, Aircraft(18.0, max_bank_deg=35.0))) as reports:
             end = time.monotonic() + STARTS_S
