@@ -303,6 +303,16 @@ def test_the_exit_status_says_whether_all_are_in_their_slots(tmp_path, capsys, m
     assert "a: back\n" in err
 
 
+def test_where_the_last_one_is_lost_no_other_is_said_to_fly_on(capsys):
+    members = [member("a"), member("b")]
+    flown = guide_fleet._FleetFlight(fleet_of(*members), guide_fleet.FleetOutput(None, False, 1.0, json=True), [])
+    for one in members:
+        one.ended = LOST
+        flown._tell_faults()
+    told = [line.partition("; ")[2] for line in capsys.readouterr().err.splitlines() if "keeps no slot" in line]
+    assert told == ["the others fly on.", "no other is guided any more."]
+
+
 def test_a_question_is_asked_once_and_a_no_commands_nothing(tmp_path, capsys, monkeypatch):
     monkeypatch.setattr(guide_fleet, "GuidedFleet", Scripted)
     monkeypatch.setattr(guide_fleet._FleetFlight, "fly", lambda self: None)

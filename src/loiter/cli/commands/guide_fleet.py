@@ -139,9 +139,10 @@ class _FleetFlight:
             name = member.vehicle.name
             if member.fault and name not in self._told:
                 self._told.add(name)
+                others = "the others fly on" if self._fleet.flying else "no other is guided any more"
                 self._output.write(
                     f"{name}: {member.fault}",
-                    f"{name} keeps no slot, and its distances are not watched any more; the others fly on.",
+                    f"{name} keeps no slot, and its distances are not watched any more; {others}.",
                 )
 
     def document(self, shown: ShownFleet, *, settled: bool) -> dict[str, object]:
