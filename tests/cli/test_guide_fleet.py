@@ -231,6 +231,14 @@ def test_a_vehicle_is_in_its_slot_within_five_degrees_and_stays_so_within_ten():
     assert settled == [False, False, True, True, False, False]
 
 
+def test_a_vehicle_that_a_pilot_takes_out_of_its_slot_is_in_none():
+    one = member("a")
+    one.take(report(1.0))
+    assert one.in_slot
+    one.take(LOST)
+    assert not one.in_slot
+
+
 def request_of(timeout_s=15.0):
     return FleetRequest(Orbit(0.0, 0.0, 100.0), FRAME, 18.0, 45.0, None, None, timeout_s, separation_m=50.0)
 

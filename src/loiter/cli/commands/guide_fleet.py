@@ -6,7 +6,7 @@ import signal
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from math import inf, isnan
+from math import inf
 from pathlib import Path
 from time import monotonic
 from typing import NamedTuple
@@ -156,7 +156,7 @@ class _FleetFlight:
                     "name": member.vehicle.name,
                     "connection": member.vehicle.connection,
                     "system": member.vehicle.system,
-                    "in_slot": not isnan(member.settled_s),
+                    "in_slot": member.in_slot,
                     "slot_ahead_deg": report.json_value(member.slot_ahead_deg),
                     "guided": member.fault == "",
                     "end": None if member.ended is None else member.ended.sentence,

@@ -117,6 +117,11 @@ class Member:
         return "" if self.ended is None or self.ended.stopped else self.ended.sentence
 
     @property
+    def in_slot(self) -> bool:
+        """Whether it is in its slot; one that is not guided any more is in none."""
+        return not self.fault and not isnan(self.settled_s)
+
+    @property
     def slot_ahead_deg(self) -> float:
         """How far the slot was ahead at the last report, degrees on the circle; nan if that is not known."""
         return nan if self.report is None else self.report.slot_ahead_deg
@@ -203,7 +208,7 @@ class GuidedFleet:
     @property
     def settled(self) -> bool:
         """Whether all are in their slots."""
-        return not any(member.fault or isnan(member.settled_s) for member in self.members)
+        return all(member.in_slot for member in self.members)
 
     def listen(self, until: float) -> Iterator[Member]:
         """Receive messages until a time (`time.monotonic`); yields the members that have sent one."""
