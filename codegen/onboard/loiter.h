@@ -34,13 +34,16 @@ typedef int64_t loiter_integer;
 /* Statuses. LOITER_OK is 0; all others say why there is no answer. */
 enum {
 @STATUSES@
-    /* `dt_s` of a step is not a positive, finite number. */
+    /* `dt_s` of a step is not above 0 and at most LOITER_LONGEST_STEP_S. */
     LOITER_BAD_STEP = 14,
     /* The roll response, delay, reserve, smoothing, gain or search_steps is negative or out of range. */
     LOITER_BAD_RESPONSE = 15,
     /* A search is not complete yet: continue it in the next cycle. */
     LOITER_SEARCHING = 16
 };
+
+/* The longest step, seconds: a command that lasted longer would say nothing, and one of 1e38 s overflows. */
+#define LOITER_LONGEST_STEP_S 3600
 
 /* The direction in which the circle is flown, seen from above. */
 enum { LOITER_CW = 1, LOITER_CCW = -1, LOITER_EITHER = 0 };

@@ -142,6 +142,35 @@ def test_the_state_of_the_law_in_single_precision_fits_a_microcontroller(tmp_pat
     subprocess.run([COMPILER, "-DLOITER_FLOAT", f"-I{FOLDER}", "-c", source, "-o", tmp_path / "size.o"], check=True)
 
 
+STEPS = """
+#include <math.h>
+#include "loiter.h"
+int main(void) {
+    static loiter_law law;
+    const loiter_law_config config = loiter_law_defaults(18, 35, 90, LOITER_EITHER);
+    const loiter_measurement m = {0, -400, 0, 90, 0, 18, 0, 18};
+    const loiter_real bad[] = {0, -1, 3601, (loiter_real)3.0e38, INFINITY, NAN};
+    loiter_command command;
+    if (loiter_law_begin(&law, &config) != LOITER_OK) return 1;
+    for (int i = 0; i < 6; i++) {
+        if (loiter_law_step(&law, &m, bad[i], &command) != LOITER_BAD_STEP) return 2 + i;
+    }
+    return loiter_law_step(&law, &m, 3600, &command);
+}
+"""
+
+
+@pytest.mark.parametrize("single", [False, True])
+def test_a_step_of_an_impossible_length_is_refused(single, tmp_path):
+    """A fuzzer found a bank that is nan after a step of 3e38 s, which overflows in single precision."""
+    (tmp_path / "steps.c").write_text(STEPS, "utf-8")
+    sources = [tmp_path / "steps.c", FOLDER / "loiter.c"]
+    macros = ["-DLOITER_FLOAT"] if single else []
+    command = [COMPILER, "-std=c99", *macros, f"-I{FOLDER}", *sources, "-o", tmp_path / "steps", "-lm"]
+    subprocess.run(command, check=True)
+    assert subprocess.run([tmp_path / "steps"], check=False).returncode == 0
+
+
 @pytest.mark.parametrize("single", [False, True])
 def test_no_number_makes_it_do_what_c_does_not_define(single, tmp_path):
     """Random bytes as input; `python -m native.fuzz` has a fuzzer choose them."""
