@@ -140,7 +140,7 @@ def test_a_wrong_table_is_refused(tmp_path, capsys, rows, header, sentence):
     [
         ("--fleet FILE --connect udpout:127.0.0.1:1", "--connect has no effect with --fleet"),
         ("--fleet FILE --slot 20", "--slot has no effect with --fleet"),
-        ("--fleet FILE --keep", "has no effect with --fleet"),
+        ("--fleet FILE --keep", "--keep has no effect with --fleet"),
         ("--separation 50 --connect udpout:127.0.0.1:1", "--separation has no effect without --fleet"),
         ("", "--connect is needed, or --fleet"),
     ],
