@@ -8,7 +8,7 @@ from __future__ import annotations
 import csv
 from collections.abc import Mapping
 from pathlib import Path
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 from loiter.batch.tables.mapping import ENTRY, HEADING, LOCAL, PLACE, POSE, MappedColumn, likely_column, mapped_columns
 from loiter.errors import InvalidArgument
@@ -36,12 +36,15 @@ class FleetRow(NamedTuple):
     heading_deg: float
 
 
-class ConnectedRow(NamedTuple):
+class FleetVehicle(NamedTuple):
     """A vehicle in flight: its name, its connection as `loiter guide --connect` takes it, and its system number."""
 
     name: str
     connection: str
-    system: int | None
+    system: int | None = None
+
+
+AnyRow = TypeVar("AnyRow", FleetRow, FleetVehicle)
 
 
 class FleetTable(NamedTuple):
@@ -60,12 +63,10 @@ def read_fleet(path: Path, columns: Mapping[str, str]) -> FleetTable:
     names, records = _records(path)
     mapped, is_placed = _columns(path, names, columns)
     rows = [_row(path, line, fields, mapped) for line, fields in records]
-    named = [row._replace(name=row.name or str(i)) for i, row in enumerate(rows, 1)]
-    _check_names(path, [row.name for row in named])
-    return FleetTable(tuple(named), is_placed)
+    return FleetTable(_named(path, rows), is_placed)
 
 
-def read_connections(path: Path) -> tuple[ConnectedRow, ...]:
+def read_connections(path: Path) -> tuple[FleetVehicle, ...]:
     """The vehicles in a CSV file: a column connect and, if wanted, name and system.
 
     Raises `InvalidArgument` for a file that cannot be read or is no such table.
@@ -76,19 +77,16 @@ def read_connections(path: Path) -> tuple[ConnectedRow, ...]:
     for name in names:
         if name not in (NAME, CONNECT, SYSTEM):
             raise _fault(path, f"it has a column {name}: those of vehicles are {NAME}, {CONNECT} and {SYSTEM}")
-    rows = [_connected(path, line, fields) for line, fields in records]
-    named = [row._replace(name=row.name or str(i)) for i, row in enumerate(rows, 1)]
-    _check_names(path, [row.name for row in named])
-    return tuple(named)
+    return _named(path, [_connected(path, line, fields) for line, fields in records])
 
 
-def _connected(path: Path, line: int, fields: Mapping[str, str]) -> ConnectedRow:
+def _connected(path: Path, line: int, fields: Mapping[str, str]) -> FleetVehicle:
     connection, system = fields[CONNECT].strip(), fields.get(SYSTEM, "").strip()
     if not connection:
         raise _fault(path, f"line {line} has no connection")
     if system and not (system.isdecimal() and 1 <= int(system) <= MOST_SYSTEMS):
         raise _fault(path, f"line {line} has the system {system!r}: it is a number from 1 to {MOST_SYSTEMS}")
-    return ConnectedRow(fields.get(NAME, "").strip(), connection, int(system) if system else None)
+    return FleetVehicle(fields.get(NAME, "").strip(), connection, int(system) if system else None)
 
 
 def _records(path: Path) -> tuple[list[str], list[tuple[int, dict[str, str]]]]:
@@ -150,9 +148,13 @@ def _number(path: Path, line: int, text: str, column: MappedColumn) -> float:
         ) from None
 
 
-def _check_names(path: Path, names: list[str]) -> None:
+def _named(path: Path, rows: list[AnyRow]) -> tuple[AnyRow, ...]:
+    """Rows in which those without a name have their number; raises `InvalidArgument` for names that cannot be used."""
+    named = tuple(row._replace(name=row.name or str(i)) for i, row in enumerate(rows, 1))
+    names = [row.name for row in named]
     for name in names:
         if names.count(name) > 1:
             raise _fault(path, f"two aircraft have the name {name!r}")
         if FORBIDDEN & set(name) or not name.isprintable() or name.startswith("."):
             raise _fault(path, f"the name {name!r} cannot be part of the name of a file")
+    return named

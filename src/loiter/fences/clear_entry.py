@@ -78,14 +78,14 @@ def clear_entry(
     >>> found.maneuver.word, round(found.maneuver.duration_s, 2), round(found.later_s, 2)
     ('RSLSL', 19.92, 0.15)
     """
-    found = fastest_clear(fence, pose, orbit, aircraft, wind, margin_m)
+    problem = Problem(pose, orbit, aircraft, CALM if wind is None else wind)
+    margin_m = _margin(fence, orbit, margin_m)
+    found = _fastest_clear(fence, problem, margin_m)
     if not found.searched or found.least_s == inf:
         return found
-    problem = Problem(pose, orbit, aircraft, CALM if wind is None else wind)
-    margin_m = default_margin_m(orbit) if margin_m is None else margin_m
     longest_s = inf if problem.still else found.least_s + LONGER_IN_WIND * problem.time_unit_s
     most_s = found.maneuver.duration_s if found.maneuver else longest_s
-    air = StillAir(fence, problem, margin_m, []) if problem.still else SteadyWind(fence, problem, margin_m)
+    air = _air(fence, problem, margin_m, [])
     bound = least_length(fence, problem, margin_m, air, most_s / problem.time_unit_s)
     return found._replace(least_s=max(found.least_s, bound * problem.time_unit_s))
 
@@ -94,9 +94,23 @@ def fastest_clear(
     fence: Fence, pose: Pose, orbit: Orbit, aircraft: Aircraft, wind: Wind | None = None, margin_m: float | None = None
 ) -> ClearEntry:
     """The answer of `clear_entry` with a lower bound that costs nothing: no clear entry is faster than any entry."""
-    instance("fence", fence, Fence)
     problem = Problem(pose, orbit, aircraft, CALM if wind is None else wind)
-    margin_m = default_margin_m(orbit) if margin_m is None else not_negative("margin_m", margin_m, "metres")
+    return _fastest_clear(fence, problem, _margin(fence, orbit, margin_m))
+
+
+def _margin(fence: Fence, orbit: Orbit, margin_m: float | None) -> float:
+    """The margin that is kept, metres; raises the errors of `Fence.check` for a fence or a margin that is none."""
+    instance("fence", fence, Fence)
+    return default_margin_m(orbit) if margin_m is None else not_negative("margin_m", margin_m, "metres")
+
+
+def _air(fence: Fence, problem: Problem, margin_m: float, curves: list[Curve]) -> Air:
+    """The words between contacts on some curves, in the air of the problem."""
+    return StillAir(fence, problem, margin_m, curves) if problem.still else SteadyWind(fence, problem, margin_m)
+
+
+def _fastest_clear(fence: Fence, problem: Problem, margin_m: float) -> ClearEntry:
+    aircraft, orbit = problem.aircraft, problem.orbit
     known = extremals(problem)
     found = first_clear(fence, known, margin_m)
     if found.is_fastest or orbit.moves:
@@ -126,9 +140,7 @@ class _Search:
         for share in () if problem.still else WIDER:
             clearance_m = margin_m + gap_m + share * problem.aircraft.turn_radius_m
             self._curves += [curve for curve in curves_of(fence, problem.orbit, clearance_m) if not curve.joined]
-        self._air: Air = (
-            StillAir(fence, problem, margin_m, self._curves) if problem.still else SteadyWind(fence, problem, margin_m)
-        )
+        self._air = _air(fence, problem, margin_m, self._curves)
         c, s = heading_vector(problem.pose.heading_deg)
         self._start = Pose2(problem.pose.east_m, problem.pose.north_m, atan2(s, c))
 

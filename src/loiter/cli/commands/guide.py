@@ -11,6 +11,7 @@ from math import isnan
 from pathlib import Path
 from queue import Empty, Queue
 from threading import Thread
+from types import FrameType
 from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Parameter
@@ -188,7 +189,7 @@ def guide(
         margin_m=fence.margin,
         **_slot_arguments(slot, slot_at, slot_band),
     )
-    with _ending_signals(), closing(reports):
+    with ending_signals(signal.default_int_handler), closing(reports):
         try:
             for vehicle in reports:
                 if json:
@@ -243,15 +244,15 @@ def _question() -> Callable[[], bool]:
 
 
 @contextmanager
-def _ending_signals() -> Iterator[None]:
-    """`ENDING_SIGNALS` raise KeyboardInterrupt meanwhile."""
+def ending_signals(handler: Callable[[int, FrameType | None], object]) -> Iterator[None]:
+    """`ENDING_SIGNALS` have this handler meanwhile."""
     numbers = [number for name in ENDING_SIGNALS if (number := getattr(signal, name, None)) is not None]
-    former = [signal.signal(number, signal.default_int_handler) for number in numbers]
+    former = [signal.signal(number, handler) for number in numbers]
     try:
         yield
     finally:
-        for number, handler in zip(numbers, former, strict=True):
-            signal.signal(number, handler)
+        for number, before in zip(numbers, former, strict=True):
+            signal.signal(number, before)
 
 
 def line(vehicle: GuideReport) -> str:

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import signal
 import sys
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from math import inf
 from pathlib import Path
 from time import monotonic
@@ -16,10 +14,10 @@ from rich.console import RenderableType
 from loiter.batch.fleets import read_connections
 from loiter.cli import report
 from loiter.cli.commands.fleet import ShownFleet
-from loiter.cli.commands.guide import ENDING_SIGNALS, line
+from loiter.cli.commands.guide import ending_signals, line
 from loiter.cli.status import LINK_FAILED, abandon_output
 from loiter.errors import LinkFailed
-from loiter.mavlink.guiding.fleet import REPORT_S, FleetRequest, FleetVehicle, GuidedFleet, Member, check_fleet
+from loiter.mavlink.guiding.fleet import REPORT_S, FleetRequest, GuidedFleet, Member, check_fleet
 from loiter.planning.model import Orbit
 
 
@@ -49,9 +47,11 @@ def guide_fleet(table: Path, request: FleetRequest, output: FleetOutput) -> int:
     Raises `InvalidArgument` for a file of vehicles that cannot be guided together, and `LinkFailed` where one of them
     cannot be guided at the start: none is commanded then.
     """
-    vehicles = [FleetVehicle(*row) for row in read_connections(table)]
+    vehicles = read_connections(table)
     check_fleet(vehicles, request.timeout_s)
-    with _noted_signals() as signals, GuidedFleet(vehicles, request) as fleet:
+    # Noted, and not raised: an exception could come amid a message.
+    signals: list[int] = []
+    with ending_signals(lambda number, _: signals.append(number)), GuidedFleet(vehicles, request) as fleet:
         flight = _FleetFlight(fleet, output, signals)
         try:
             planned = flight.plan()
@@ -165,16 +165,3 @@ class _FleetFlight:
             ],
             "plan": shown.document(),
         }
-
-
-@contextmanager
-def _noted_signals() -> Iterator[list[int]]:
-    """A list to which `ENDING_SIGNALS` are appended meanwhile: an exception could come amid a message."""
-    noted: list[int] = []
-    numbers = [number for name in ENDING_SIGNALS if (number := getattr(signal, name, None)) is not None]
-    former = [signal.signal(number, lambda number, _: noted.append(number)) for number in numbers]
-    try:
-        yield noted
-    finally:
-        for number, handler in zip(numbers, former, strict=True):
-            signal.signal(number, handler)

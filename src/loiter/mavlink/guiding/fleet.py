@@ -18,6 +18,7 @@ from threading import Event, Thread
 from time import monotonic, time
 from typing import Any, NamedTuple
 
+from loiter.batch.fleets import FleetVehicle
 from loiter.errors import InvalidArgument, LinkFailed, LoiterError
 from loiter.geo import LocalFrame
 from loiter.guidance.entry.slot_entry import BAND
@@ -53,14 +54,6 @@ OLD_S = 3.0
 
 # Seconds for processes to command their vehicles back and end: longer than a command and a target are waited for.
 STOP_S = 15.0
-
-
-class FleetVehicle(NamedTuple):
-    """A vehicle of a fleet: its name, and its connection as `guide` takes it."""
-
-    name: str
-    connection: str
-    system: int | None = None
 
 
 class FleetRequest(NamedTuple):

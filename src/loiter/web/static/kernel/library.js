@@ -3295,27 +3295,9 @@ return Mission(tuple(items), [...iter(end), runway_m]);
 }
 
 function fastest_clear(fence, pose, orbit, aircraft, wind = null, margin_m = null) {
-let best, blocking, enough_m, fastest_m_s, found, known, later_s, least_s, problem;
-arrays.unchecked("fence", fence, Fence);
+let problem;
 problem = Problem(pose, orbit, aircraft, ((wind == null) ? CALM : wind));
-margin_m = ((margin_m == null) ? default_margin_m(orbit) : not_negative("margin_m", margin_m, "metres"));
-known = extremals(problem);
-found = first_clear(fence, known, margin_m);
-if ((truth(found.is_fastest) || truth(orbit.moves))) {
-return found;
-}
-if (truth((blocking = zones_on_circle(fence, item(known, 0), margin_m)))) {
-return replace(found, { blocking: blocking, least_s: math.inf });
-}
-fastest_m_s = add(aircraft.airspeed_m_s, problem.wind.speed_m_s);
-least_s = max(item(known, 0).duration_s, div(arrays.no_length(fence, problem, margin_m), fastest_m_s));
-enough_m = add(item(known, 0).length_m, mul(LATE, aircraft.turn_radius_m));
-best = (lt(least_s, math.inf) ? _Search(fence, problem, margin_m).fastest(found.maneuver, enough_m) : null);
-if ((best == null)) {
-return replace(found, { searched: true, least_s: least_s });
-}
-later_s = sub(best.duration_s, item(known, 0).duration_s);
-return replace(found, { maneuver: best, check: fence.check(best, margin_m), later_s: later_s, searched: true, least_s: least_s });
+return _fastest_clear(fence, problem, _margin(fence, orbit, margin_m));
 }
 
 function maneuver_maneuver_values(maneuver, pose = pose_values) {
@@ -4293,151 +4275,32 @@ function _item(command, params, place, altitude_m) {
 return MissionItem(command, Frame.ABOVE_SEA, params, ...iter(place), altitude_m);
 }
 
-function first_clear(fence, maneuvers, margin_m = null) {
-let blocking, found, later_s, maneuver, ordered, tried;
+function _fastest_clear(fence, problem, margin_m) {
+let aircraft, best, blocking, enough_m, fastest_m_s, found, known, later_s, least_s, orbit;
+[aircraft, orbit] = iter([problem.aircraft, problem.orbit]);
+known = extremals(problem);
+found = first_clear(fence, known, margin_m);
+if ((truth(found.is_fastest) || truth(orbit.moves))) {
+return found;
+}
+if (truth((blocking = zones_on_circle(fence, item(known, 0), margin_m)))) {
+return replace(found, { blocking: blocking, least_s: math.inf });
+}
+fastest_m_s = add(aircraft.airspeed_m_s, problem.wind.speed_m_s);
+least_s = max(item(known, 0).duration_s, div(arrays.no_length(fence, problem, margin_m), fastest_m_s));
+enough_m = add(item(known, 0).length_m, mul(LATE, aircraft.turn_radius_m));
+best = (lt(least_s, math.inf) ? _Search(fence, problem, margin_m).fastest(found.maneuver, enough_m) : null);
+if ((best == null)) {
+return replace(found, { searched: true, least_s: least_s });
+}
+later_s = sub(best.duration_s, item(known, 0).duration_s);
+return replace(found, { maneuver: best, check: fence.check(best, margin_m), later_s: later_s, searched: true, least_s: least_s });
+}
+
+function _margin(fence, orbit, margin_m) {
 arrays.unchecked("fence", fence, Fence);
-ordered = sorted(maneuvers, { key: ((maneuver) => maneuver.duration_s) });
-if (!truth(ordered)) {
-throw errors.InvalidArgument("maneuvers", "has none to choose from");
+return ((margin_m == null) ? default_margin_m(orbit) : not_negative("margin_m", margin_m, "metres"));
 }
-blocking = new Map([]);
-for ([tried, maneuver] of rows(enumerate(ordered, { start: 1 }))) {
-found = fence.check(maneuver, margin_m);
-if (truth(found.clear)) {
-later_s = sub(maneuver.duration_s, item(ordered, 0).duration_s);
-return ClearEntry(maneuver, found, later_s, tried, tuple(blocking), item(ordered, 0).duration_s);
-}
-set_item(blocking, item(found.breaches, 0).zone.name, null);
-}
-return ClearEntry(null, null, math.nan, len(ordered), tuple(blocking), item(ordered, 0).duration_s);
-}
-
-function zones_on_circle(fence, maneuver, margin_m) {
-let closest, hold, names, near, path, side, sides, zones;
-path = flown_path(maneuver);
-hold = path.pieces.take([path.hold]);
-sides = fence.signed_distances(float(item(hold.x, 0)), float(item(hold.y, 0)));
-names = [];
-for ([zones, closest, side] of rows(zip(_by_kind(fence), approach(fence, hold, margin_m), sides))) {
-near = bit_or(le(closest.distance, add(margin_m, TOUCH_M)), lt(side, 0.0));
-names = add(names, list(iter(zip(zones, near))).map((one) => iter(one)).filter(([zone, is_near]) => truth(is_near)).map(([zone, is_near]) => zone.name));
-}
-return tuple(names);
-}
-
-const _Search = struct(class extends Values {
-constructor(fence, problem, margin_m) {
-super();
-let c, clearance_m, gap_m, s, share;
-const self = this;
-gap_m = (truth(problem.still) ? STILL_AIR_GAP_M : WIND_GAP_M);
-[self._fence, self._problem, self._margin_m] = iter([fence, problem, margin_m]);
-self._curves = curves_of(fence, problem.orbit, add(margin_m, gap_m));
-self._touching = len(self._curves);
-for (share of iter((truth(problem.still) ? [] : WIDER))) {
-clearance_m = add(add(margin_m, gap_m), mul(share, problem.aircraft.turn_radius_m));
-self._curves = add(self._curves, list(iter(curves_of(fence, problem.orbit, clearance_m))).filter((curve) => !truth(curve.joined)).map((curve) => curve));
-}
-self._air = (truth(problem.still) ? StillAir(fence, problem, margin_m, self._curves) : SteadyWind(fence, problem, margin_m));
-[c, s] = iter(heading_vector(problem.pose.heading_deg));
-self._start = Pose2(problem.pose.east_m, problem.pose.north_m, math.atan2(s, c));
-}
-fastest(known, enough_m) {
-let best, faster, maneuver, search;
-const self = this;
-best = known;
-for (search of iter(PASSES)) {
-for (maneuver of iter(self._maneuvers(search, ((best == null) ? math.inf : best.length_m)))) {
-faster = ((best == null) || lt(maneuver.duration_s, best.duration_s));
-if ((truth(faster) && truth(self._fence.check(maneuver, self._margin_m).clear))) {
-best = maneuver;
-}
-}
-if (((best != null) && lt(best.length_m, enough_m))) {
-break;
-}
-}
-return best;
-}
-*_maneuvers(search, most_m) {
-let chain, curves, r, refined, rows_;
-const self = this;
-r = self._problem.aircraft.turn_radius_m;
-refined = (truth(self._problem.still) ? search : 1);
-curves = (gt(search, 1) ? self._curves : sliced(self._curves, null, self._touching, null));
-rows_ = [...iter(rows_on(curves, r, refined)), ...iter(rows_without_straight(curves, ...iter(self._start), r))];
-rows_ = add(rows_, rows_on_tangents(curves, ...iter(self._start), r));
-for (chain of iter(self._chains(placed(self._curves, rows_), add(most_m, mul(SLACK, r)), mul(SLACK, r), MOST_CHAINS))) {
-yield self._maneuver(self._moved(chain, refined));
-}
-}
-_chains(contacts, most_m, slack_m, most) {
-let allowed, clear, poses;
-const self = this;
-clear = clear_points(self._fence, contacts.x, contacts.y, self._margin_m);
-allowed = contacts.take(item(clear.nonzero(), 0));
-poses = (truth(self._problem.still) ? MOST_POSES : MOST_POSES_IN_WIND);
-return ChainSearch(self._air, self._start, allowed, most_m, poses).chains(slack_m, most);
-}
-_moved(chain, refined) {
-let k, near, rows_;
-const self = this;
-for (k of iter(range(1, add(HALVINGS, 1)))) {
-rows_ = set_of(list(iter(range(len(chain.paths)))).flatMap((path) => list(iter(self._rows_near(chain, path, pow(0.5, k), refined))).map((row) => row)));
-near = placed(self._curves, sorted(rows_));
-chain = next(iter(self._chains(near, chain.length_m, 0.0, 1)), chain);
-}
-return self._tangent(chain);
-}
-_tangent(chain) {
-let _, found, i, k, move, paths, r, rows_, share, tangent, way;
-const self = this;
-[r, tangent] = iter([self._problem.aircraft.turn_radius_m, chain]);
-for (_ of iter(range(TANGENT_STEPS))) {
-[rows_, paths] = iter([[], tangent.paths]);
-for ([k, [i, share, way]] of rows(enumerate(rows_of(tangent.contacts)))) {
-move = 0.0;
-if ((lt(add(k, 1), len(paths)) && gt(item(item(paths, add(k, 1)), 0).radius_m, r))) {
-move = neg(_turned(item(item(paths, k), 2)));
-} else {
-if ((lt(add(k, 1), len(paths)) && gt(item(item(paths, k), 0).radius_m, r))) {
-move = _turned(item(item(paths, add(k, 1)), 0));
-}
-}
-append_(rows_, [i, beside(item(self._curves, i), share, div(move, or(item(self._curves, i).width, () => math.inf))), way]);
-}
-found = self._chains(placed(self._curves, rows_), math.inf, 0.0, 1);
-if ((!truth(found) || ne(len(item(found, 0).paths), len(paths)))) {
-return chain;
-}
-tangent = item(found, 0);
-}
-return (lt(tangent.length_m, chain.length_m) ? tangent : chain);
-}
-*_rows_near(chain, k, step, refined) {
-let curve, i, moves, share, way, width;
-const self = this;
-[i, share, way] = iter(item(rows_of(chain.contacts), k));
-curve = item(self._curves, i);
-width = div(step, curve.steps(self._problem.aircraft.turn_radius_m, refined));
-moves = list(iter([-2, -1, 0, 1, 2])).map((m) => mul(m, width));
-yield* iter(list(iter(moves)).map((move) => [i, beside(curve, share, move), way]));
-}
-_maneuver(chain) {
-let control, here, length_m, miss_m, now, problem, radius_m, segments, turn;
-const self = this;
-problem = self._problem;
-segments = [];
-[here, now] = iter([problem.pose, 0.0]);
-for ([control, length_m, radius_m] of rows(_merged(chain))) {
-append_(segments, segment(here, now, item(clear_entry_LETTERS, control), length_m, problem.aircraft, problem.wind, radius_m));
-[here, now] = iter([item(segments, -1).end, add(now, item(segments, -1).duration_s)]);
-}
-turn = (gt(item(chain.contacts.way, -1), 0) ? Turn.CCW : Turn.CW);
-miss_m = abs(sub(problem.orbit.distance_m(here), problem.orbit.radius_m));
-return Maneuver(problem.pose, problem.orbit, problem.aircraft, turn, tuple(segments), miss_m, problem.wind);
-}
-}, []);
 
 function _join_over_ground(maneuver) {
 let centre, speed, track_deg;
@@ -5140,7 +5003,7 @@ return SlotState(complex(mul(self.R, out)), complex(heading), float(div(mul(mul(
 function _first_unclear(start, heading, circle, widths, finest) {
 let _, between, close, left, seen, unclear;
 seen = watched(start, heading, circle, widths);
-for (_ of iter(range(slot_check_PASSES))) {
+for (_ of iter(range(PASSES))) {
 unclear = np.flatnonzero(invert(_excludes(seen)));
 close = item(unclear, le(sub(item(seen.time, add(unclear, 1)), item(seen.time, unclear)), finest));
 if (truth(close.size)) {
@@ -5303,453 +5166,151 @@ let _, c, s, x, y;
 return Pose(add(orbit.east_m, mul(r, x)), add(orbit.north_m, mul(r, y)), wrapped(math.degrees(math.atan2(c, s))));
 }
 
-const ClearEntry = struct(class extends Tuple {
-constructor(maneuver, check, later_s, tried, blocking, least_s = 0.0, searched = false) {
-super();
-this.maneuver = maneuver;
-this.check = check;
-this.later_s = later_s;
-this.tried = tried;
-this.blocking = blocking;
-this.least_s = least_s;
-this.searched = searched;
-
+function first_clear(fence, maneuvers, margin_m = null) {
+let blocking, found, later_s, maneuver, ordered, tried;
+arrays.unchecked("fence", fence, Fence);
+ordered = sorted(maneuvers, { key: ((maneuver) => maneuver.duration_s) });
+if (!truth(ordered)) {
+throw errors.InvalidArgument("maneuvers", "has none to choose from");
 }
-get is_fastest() {
-const self = this;
-return and(and((self.maneuver != null), () => eq(self.tried, 1)), () => !truth(self.searched));
+blocking = new Map([]);
+for ([tried, maneuver] of rows(enumerate(ordered, { start: 1 }))) {
+found = fence.check(maneuver, margin_m);
+if (truth(found.clear)) {
+later_s = sub(maneuver.duration_s, item(ordered, 0).duration_s);
+return ClearEntry(maneuver, found, later_s, tried, tuple(blocking), item(ordered, 0).duration_s);
 }
-get sentence() {
-let later, what;
-const self = this;
-if ((self.maneuver == null)) {
-return self._refusal;
+set_item(blocking, item(found.breaches, 0).zone.name, null);
 }
-if (truth(self.is_fastest)) {
-return "The fastest entry is clear.";
-}
-later = (ge(self.later_s, SAME_TIME_S) ? `joins ${format(self.later_s, `.1f`)} s later` : "is as fast");
-what = (truth(self.searched) ? "The fastest clear entry found" : "The first candidate that is clear");
-return `${str(what)} ${str(later)}: ${str(self.maneuver)}`;
-}
-get _refusal() {
-let zones;
-const self = this;
-zones = join_(" and ", map(repr, self.blocking));
-if (eq(self.least_s, math.inf)) {
-return `No entry is clear: ${str(zones)} blocks the circle itself, or every way to it.`;
-}
-if (truth(self.searched)) {
-return `No entry found: ${str(zones)} blocks here.`;
-}
-return `No entry found: of the ${str(self.tried)} candidates none is clear, ${str(zones)} blocks here.`;
-}
-}, ["maneuver", "check", "later_s", "tried", "blocking", "least_s", "searched"], 'ClearEntry');
-
-function curves_of(fence, orbit, clearance_m) {
-let circle, found, ways;
-found = list(iter(fence.zones)).flatMap((zone) => list(iter(_zone_curves(zone, clearance_m))).map((curve) => curve));
-ways = get_(new Map([[Turn.CW, [-1]], [Turn.CCW, [1]]]), orbit.turn, [1, -1]);
-circle = Curve(orbit.east_m, orbit.north_m, orbit.radius_m, 0.0, math.tau, 0.0, 0.0, ways, true);
-return [...iter(found), circle, replace(circle, { anywhere: true })];
+return ClearEntry(null, null, math.nan, len(ordered), tuple(blocking), item(ordered, 0).duration_s);
 }
 
-const StillAir = struct(class extends Values {
-constructor(fence, problem, margin_m, curves) {
-super();
-const self = this;
-[self._fence, self._problem, self._margin_m, self._curves] = iter([fence, problem, margin_m, curves]);
-self._radius_m = problem.aircraft.turn_radius_m;
+function zones_on_circle(fence, maneuver, margin_m) {
+let closest, hold, names, near, path, side, sides, zones;
+path = flown_path(maneuver);
+hold = path.pieces.take([path.hold]);
+sides = fence.signed_distances(float(item(hold.x, 0)), float(item(hold.y, 0)));
+names = [];
+for ([zones, closest, side] of rows(zip(_by_kind(fence), approach(fence, hold, margin_m), sides))) {
+near = bit_or(le(closest.distance, add(margin_m, TOUCH_M)), lt(side, 0.0));
+names = add(names, list(iter(zip(zones, near))).map((one) => iter(one)).filter(([zone, is_near]) => truth(is_near)).map(([zone, is_near]) => zone.name));
 }
-headings(contacts) {
-const self = this;
-return contacts.angle;
+return tuple(names);
 }
-least_lengths(contacts, headings) {
-let c, dx, dy, least, orbit, r, radius, s;
-const self = this;
 
-[orbit, r] = iter([self._problem.orbit, self._radius_m]);
-[dx, dy, c, s] = iter([div(sub(contacts.x, orbit.east_m), r), div(sub(contacts.y, orbit.north_m), r), np.cos(headings), np.sin(headings)]);
-radius = max(self._problem.radius, 1.0);
-least = arrays.min_time(...iter(arrays.reduce_states(dx, dy, c, s)), radius, orbit.turn);
-return np.where(contacts.joined, 0.0, mul(mul(least, r), sub(1.0, ROUNDING)));
-}
-words(start, at, contacts, headings) {
-let found, placed, several;
-const self = this;
-placed = item(invert(contacts.anywhere).nonzero(), 0);
-found = words_between(...iter(start), item(contacts.x, placed), item(contacts.y, placed), item(headings, placed), self._radius_m);
-several = [replace(found, { to: item(placed, found.to) }), _onto_circle(self._entries(start), contacts, self._radius_m)];
-if (((at != null) && gt(item(self._curves, item(contacts.curve, at)).radius, self._radius_m))) {
-append_(several, self._along(at, contacts));
-}
-return Words.joined(several);
-}
-_entries(start) {
-let orbit, place, r, state;
-const self = this;
-[orbit, r] = iter([self._problem.orbit, self._radius_m]);
-place = [div(sub(start.x, orbit.east_m), r), div(sub(start.y, orbit.north_m), r)];
-state = arrays.reduce_states(...iter(place), math.cos(start.heading), math.sin(start.heading));
-return kernel.synthesis_ranked(...iter(state), kernel.rounded_radius(self._problem.radius), item(SIDES, orbit.turn), 0.0);
-}
-_along(at, contacts) {
-let curve, length, others, turned, way, zero;
-const self = this;
-
-[curve, way] = iter([item(self._curves, item(contacts.curve, at)), item(contacts.way, at)]);
-others = item(bit_and(eq(contacts.curve, item(contacts.curve, at)), eq(contacts.way, way)).nonzero(), 0);
-turned = mul(mul(sub(item(contacts.share, others), item(contacts.share, at)), way), curve.width);
-turned = (truth(curve.closed) ? np.mod(turned, math.tau) : turned);
-[others, turned] = iter([item(others, gt(turned, 0.0)), item(turned, gt(turned, 0.0))]);
-zero = np.zeros_like(turned);
-length = np.stack([mul(turned, curve.radius), zero, zero], { axis: -1 });
-return Words(others, np.full(length.shape, float(way)), length, np.full(length.shape, curve.radius));
-}
-are_clear(start, words) {
-let angle, arcs, bent, c, chord, clear, ends, half, heading, k, length, next_x, next_y, nx, ny, radius, s, straight, u, x, y;
-const self = this;
-
-clear = np.ones(words.to.size, bool);
-[x, y, heading] = iter(list(iter(start)).map((value) => np.full(words.to.size, value)));
-for (k of iter(range(3))) {
-[u, length, radius] = iter([item(words.control, [slice(null, null), k]), item(words.length, [slice(null, null), k]), item(words.radius, [slice(null, null), k])]);
-[c, s, angle] = iter([np.cos(heading), np.sin(heading), div(length, radius)]);
-half = mul(mul(0.5, u), angle);
-chord = np.where(eq(u, 0.0), length, mul(mul(2.0, radius), np.sin(mul(0.5, angle))));
-next_x = add(x, mul(chord, np.cos(add(heading, half))));
-next_y = add(y, mul(chord, np.sin(add(heading, half))));
-bent = item(bit_and(bit_and(clear, ne(u, 0.0)), gt(length, 0.0)).nonzero(), 0);
-if (truth(bent.size)) {
-[nx, ny] = iter([mul(u, s), mul(neg(u), c)]);
-arcs = [sub(x, mul(radius, nx)), sub(y, mul(radius, ny)), radius, nx, ny, u, angle];
-set_item(clear, bent, _clear_arcs(self._fence, Arcs(...iter(list(iter(arcs)).map((v) => item(v, [bent, null])))), self._margin_m));
-}
-straight = item(bit_and(bit_and(clear, eq(u, 0.0)), gt(length, 0.0)).nonzero(), 0);
-if (truth(straight.size)) {
-ends = list(iter([x, y, next_x, next_y])).map((v) => item(v, straight));
-set_item(clear, straight, _clear_chords(self._fence, ends, self._margin_m));
-}
-[x, y, heading] = iter([next_x, next_y, add(heading, mul(u, angle))]);
-}
-return clear;
-}
-}, []);
-
-const SteadyWind = struct(class extends Values {
+const _Search = struct(class extends Values {
 constructor(fence, problem, margin_m) {
 super();
+let c, clearance_m, gap_m, s, share;
 const self = this;
+gap_m = (truth(problem.still) ? STILL_AIR_GAP_M : WIND_GAP_M);
 [self._fence, self._problem, self._margin_m] = iter([fence, problem, margin_m]);
-self._radius_m = problem.aircraft.turn_radius_m;
-[self._wx, self._wy] = iter(problem.relative_wind);
+self._curves = curves_of(fence, problem.orbit, add(margin_m, gap_m));
+self._touching = len(self._curves);
+for (share of iter((truth(problem.still) ? [] : WIDER))) {
+clearance_m = add(add(margin_m, gap_m), mul(share, problem.aircraft.turn_radius_m));
+self._curves = add(self._curves, list(iter(curves_of(fence, problem.orbit, clearance_m))).filter((curve) => !truth(curve.joined)).map((curve) => curve));
 }
-headings(contacts) {
-let across;
+self._air = clear_entry__air(fence, problem, margin_m, self._curves);
+[c, s] = iter(heading_vector(problem.pose.heading_deg));
+self._start = Pose2(problem.pose.east_m, problem.pose.north_m, math.atan2(s, c));
+}
+fastest(known, enough_m) {
+let best, faster, maneuver, search;
 const self = this;
-
-across = sub(mul(self._wy, np.cos(contacts.angle)), mul(self._wx, np.sin(contacts.angle)));
-return sub(contacts.angle, np.arcsin(across));
-}
-least_lengths(contacts, headings) {
-let dx, dy, free, least, orbit, r;
-const self = this;
-
-[orbit, r] = iter([self._problem.orbit, self._radius_m]);
-[dx, dy] = iter([div(sub(contacts.x, orbit.east_m), r), div(sub(contacts.y, orbit.north_m), r)]);
-least = np.zeros(contacts.x.size);
-free = invert(contacts.joined);
-set_item(least, free, arrays.min_time_in_wind(item(dx, free), item(dy, free), item(headings, free), self._problem.radius, orbit.turn, self._wx, self._wy));
-return mul(mul(np.where(np.isfinite(least), least, 0.0), r), sub(1.0, 1e-09));
-}
-words(start, at, contacts, headings) {
-let angle, heading, i, nx, ny, path, phase, placed, places, r, rows_, scene, sx, sy, word, x, y;
-const self = this;
-[r, rows_] = iter([self._radius_m, []]);
-heading = [math.cos(start.heading), math.sin(start.heading)];
-placed = item(invert(contacts.anywhere).nonzero(), 0);
-places = zip(...iter(list(iter([contacts.x, contacts.y, contacts.angle])).map((v) => tolist_(item(v, placed)))));
-for ([i, [x, y, angle]] of rows(zip(tolist_(placed), places))) {
-[nx, ny] = iter([math.sin(angle), neg(math.cos(angle))]);
-[sx, sy] = iter([add(div(sub(start.x, x), r), nx), add(div(sub(start.y, y), r), ny)]);
-scene = WindScene(sx, sy, ...iter(heading), 1.0, self._wx, self._wy, div(kernel.rounding(sx, sy, 1.0), 3.0));
-phase = kernel.phase_of(nx, ny, -1, self._wx, self._wy);
-for (word of iter(SIX)) {
-path = kernel.first_path_of(word, phase, -1, scene, math.inf);
-if (lt(path.time, math.inf)) {
-append_(rows_, Word(i, kernel.controls(path.word), [path.t1, path.t2, path.t3]));
+best = known;
+for (search of iter(clear_entry_PASSES)) {
+for (maneuver of iter(self._maneuvers(search, ((best == null) ? math.inf : best.length_m)))) {
+faster = ((best == null) || lt(maneuver.duration_s, best.duration_s));
+if ((truth(faster) && truth(self._fence.check(maneuver, self._margin_m).clear))) {
+best = maneuver;
 }
 }
-}
-return Words.joined([Words.of(rows_, r), _onto_circle(self._entries(start), contacts, r)]);
-}
-_entries(start) {
-let heading, orbit, place, problem, r;
-const self = this;
-[orbit, r] = iter([self._problem.orbit, self._radius_m]);
-place = [div(sub(start.x, orbit.east_m), r), div(sub(start.y, orbit.north_m), r)];
-heading = [math.cos(start.heading), math.sin(start.heading)];
-problem = WindProblem(...iter(place), ...iter(heading), self._problem.radius, item(SIDES, orbit.turn), self._wx, self._wy, 0.0);
-return list(iter(kernel.wind_search_ranked(problem))).filter((found) => eq(found.status, kernel.Status.OK)).map((found) => kernel.entry_of(found));
-}
-are_clear(start, words) {
-let clear, counts, ends, flown, good, heading, i, j, k, length, n, r, step, tried, u, width, wind_x, wind_y, x, y;
-const self = this;
-
-[n, r] = iter([words.to.size, self._radius_m]);
-clear = np.ones(n, bool);
-[wind_x, wind_y] = iter([self._wx, self._wy]);
-[x, y, heading] = iter(list(iter(start)).map((value) => np.full(n, value)));
-step = pow(mul(mul(8.0, CHORD_ERROR_M), r), 0.5);
-for (k of iter(range(3))) {
-[u, length] = iter([item(words.control, [slice(null, null), k]), item(words.length, [slice(null, null), k])]);
-tried = item(bit_and(clear, gt(length, 0.0)).nonzero(), 0);
-counts = np.where(eq(item(u, tried), 0.0), 1, np.ceil(div(item(length, tried), step))).astype(np.intp);
-i = np.repeat(tried, counts);
-j = sub(np.arange(i.size), np.repeat(sub(np.cumsum(counts), counts), counts));
-width = div(item(length, i), np.repeat(counts, counts));
-ends = [];
-for (flown of iter([mul(j, width), mul(add(j, 1), width)])) {
-ends = add(ends, airs__flown(item(x, i), item(y, i), item(heading, i), item(u, i), flown, r, wind_x, wind_y));
-}
-good = _clear_chords(self._fence, ends, add(self._margin_m, CHORD_ERROR_M));
-np.logical_and.at(clear, i, good);
-[x, y] = iter(airs__flown(x, y, heading, u, length, r, wind_x, wind_y));
-heading = add(heading, div(mul(u, length), r));
-}
-return clear;
-}
-}, []);
-
-const Pose2 = struct(class extends Tuple {
-constructor(x, y, heading) {
-super();
-this.x = x;
-this.y = y;
-this.heading = heading;
-
-}
-}, ["x", "y", "heading"], 'Pose2');
-
-function rows_on(curves, turn_radius_m, refined) {
-let curve, i, n, rows_, shares;
-rows_ = [];
-for ([i, curve] of rows(enumerate(curves))) {
-n = curve.steps(turn_radius_m, refined);
-shares = (truth(curve.closed) ? list(iter(range(n))).map((k) => div(k, n)) : list(iter(range(add(n, 1)))).map((k) => div(k, n)));
-rows_ = add(rows_, list(iter(shares)).flatMap((share) => list(iter(curve.ways)).map((way) => [i, share, way])));
-}
-return rows_;
-}
-
-function rows_without_straight(curves, x, y, angle, radius_m) {
-let circle, cx, cy, distance, k, row, rows_, tx, ty, u, way;
-rows_ = [];
-for (u of iter([1, -1])) {
-[cx, cy] = iter([add(x, mul(mul(u, radius_m), math.sin(angle))), sub(y, mul(mul(u, radius_m), math.cos(angle)))]);
-rows_ = add(rows_, list(iter(_turns_at(curves, u, cx, cy, mul(2.0, radius_m), radius_m))).map((one) => iter(one)).map(([row, _0, _]) => row));
-for ([k, circle] of rows(enumerate(curves))) {
-for (way of iter(((truth(circle.joined) && !truth(circle.anywhere)) ? circle.ways : []))) {
-distance = sub(circle.radius, mul(mul(u, way), radius_m));
-for ([row, tx, ty] of rows(_turns_at(curves, u, circle.x, circle.y, distance, radius_m))) {
-rows_ = add(rows_, [row, [k, div(mod(math.atan2(sub(ty, circle.y), sub(tx, circle.x)), math.tau), math.tau), way]]);
-}
-}
-}
-}
-return rows_;
-}
-
-function rows_on_tangents(curves, x, y, angle, radius_m) {
-let curve, cx, cy, i, k, normal, other, rows_, share, to, u, way, wide;
-wide = list(iter(enumerate(curves))).map((one) => iter(one)).filter(([i, curve]) => (gt(curve.radius, radius_m) && gt(curve.width, 0.0))).map(([i, curve]) => [i, curve]);
-wide = list(iter(wide)).map((one) => iter(one)).filter(([i, curve]) => !truth(curve.joined)).map(([i, curve]) => [i, curve]);
-rows_ = [];
-for ([i, curve] of rows(wide)) {
-for (way of iter(curve.ways)) {
-for (u of iter([1, -1])) {
-[cx, cy] = iter([sub(x, mul(mul(u, radius_m), math.sin(angle))), add(y, mul(mul(u, radius_m), math.cos(angle)))]);
-rows_ = add(rows_, list(iter(_tangents(cx, cy, radius_m, u, curve, way))).map((one) => iter(one)).map(([_0, to]) => [i, to, way]));
-}
-for ([k, other] of rows(wide)) {
-for (u of iter((ne(k, i) ? other.ways : []))) {
-for ([normal, to] of rows(_tangents(other.x, other.y, other.radius, u, curve, way))) {
-share = div(mod(sub(normal, other.a), math.tau), other.width);
-rows_ = add(rows_, (le(share, 1.0) ? [[i, to, way], [k, share, u]] : []));
-}
-}
-}
-}
-}
-return rows_;
-}
-
-function placed(curves, rows_) {
-let a, anywhere, dx, dy, indices, joined, normal, places, radius, shares, ways, width, x, y;
-
-[indices, shares, ways] = iter(list(iter(zip(...iter(rows_)))).map((column) => np.array(column)));
-[x, y, radius, a, width, dx, dy] = iter(item(np.array(list(iter(curves)).map((curve) => sliced(curve, null, 7, null))), indices).T);
-normal = add(a, mul(shares, width));
-places = [add(add(x, mul(radius, np.cos(normal))), mul(shares, dx)), add(add(y, mul(radius, np.sin(normal))), mul(shares, dy))];
-[joined, anywhere] = iter(list(iter(["joined", "anywhere"])).map((name) => item(np.array(list(iter(curves)).map((curve) => curve[name])), indices)));
-return Contacts(indices, shares, ways, ...iter(places), add(normal, mul(ways, mul(0.5, math.pi))), joined, anywhere);
-}
-
-function clear_points(fence, east_m, north_m, margin_m) {
-let clear, distance, outside, zone;
-
-clear = np.ones(east_m.size, bool);
-for (zone of iter(fence.zones)) {
-if (truth(isinstance(zone, CircleZone))) {
-outside = sub(np.hypot(sub(east_m, zone.east_m), sub(north_m, zone.north_m)), zone.radius_m);
-clear = bit_and(clear, gt((truth(zone.inclusion) ? neg(outside) : outside), margin_m));
-} else {
-distance = to_edge(item(east_m, [slice(null, null), null]), item(north_m, [slice(null, null), null]), edges_of([zone])).min({ axis: 1 });
-clear = bit_and(clear, gt(mul(distance, polygon_sign(zone, east_m, north_m)), margin_m));
-}
-}
-return clear;
-}
-
-const ChainSearch = struct(class extends Values {
-constructor(air, start, contacts, most_m, most_poses) {
-super();
-const self = this;
-
-[self._air, self._start, self._contacts] = iter([air, start, contacts]);
-self._headings = air.headings(contacts);
-self._least = air.least_lengths(contacts, self._headings);
-[self._most_m, self._most_poses] = iter([most_m, most_poses]);
-self._length = np.full(add(contacts.x.size, 1), math.inf);
-self._parent = mul([null], add(contacts.x.size, 1));
-self._heap = [];
-self._expansions = [];
-}
-chains(slack_m, most) {
-let bound, chain, expansion, found, i, k, to, touched, until;
-const self = this;
-found = new Map([]);
-set_item(self._length, -1, 0.0);
-self._expand(self._contacts.x.size);
-until = self._most_m;
-while ((truth(self._heap) && lt(len(found), most))) {
-[bound, k] = iter(heappop(self._heap));
-if ((ge(bound, until) || gt(len(self._expansions), self._most_poses))) {
+if (((best != null) && lt(best.length_m, enough_m))) {
 break;
 }
-expansion = item(self._expansions, k);
-i = expansion.next;
-to = int(item(expansion.words.to, i));
-if (eq(item(self._length, to), math.inf)) {
-if (eq(item(expansion.clear, i), UNKNOWN)) {
-self._check(expansion);
 }
-if (eq(item(expansion.clear, i), CLEAR)) {
-if (truth(item(self._contacts.joined, to))) {
-chain = self._chain(expansion, i, to);
-until = min(until, add(chain.length_m, slack_m));
-touched = _touched(chain);
-if (!has(touched, found)) {
-set_item(found, touched, chain);
+return best;
 }
+*_maneuvers(search, most_m) {
+let chain, curves, r, refined, rows_;
+const self = this;
+r = self._problem.aircraft.turn_radius_m;
+refined = (truth(self._problem.still) ? search : 1);
+curves = (gt(search, 1) ? self._curves : sliced(self._curves, null, self._touching, null));
+rows_ = [...iter(rows_on(curves, r, refined)), ...iter(rows_without_straight(curves, ...iter(self._start), r))];
+rows_ = add(rows_, rows_on_tangents(curves, ...iter(self._start), r));
+for (chain of iter(self._chains(placed(self._curves, rows_), add(most_m, mul(SLACK, r)), mul(SLACK, r), MOST_CHAINS))) {
+yield self._maneuver(self._moved(chain, refined));
+}
+}
+_chains(contacts, most_m, slack_m, most) {
+let allowed, clear, poses;
+const self = this;
+clear = clear_points(self._fence, contacts.x, contacts.y, self._margin_m);
+allowed = contacts.take(item(clear.nonzero(), 0));
+poses = (truth(self._problem.still) ? MOST_POSES : MOST_POSES_IN_WIND);
+return ChainSearch(self._air, self._start, allowed, most_m, poses).chains(slack_m, most);
+}
+_moved(chain, refined) {
+let k, near, rows_;
+const self = this;
+for (k of iter(range(1, add(HALVINGS, 1)))) {
+rows_ = set_of(list(iter(range(len(chain.paths)))).flatMap((path) => list(iter(self._rows_near(chain, path, pow(0.5, k), refined))).map((row) => row)));
+near = placed(self._curves, sorted(rows_));
+chain = next(iter(self._chains(near, chain.length_m, 0.0, 1)), chain);
+}
+return self._tangent(chain);
+}
+_tangent(chain) {
+let _, found, i, k, move, paths, r, rows_, share, tangent, way;
+const self = this;
+[r, tangent] = iter([self._problem.aircraft.turn_radius_m, chain]);
+for (_ of iter(range(TANGENT_STEPS))) {
+[rows_, paths] = iter([[], tangent.paths]);
+for ([k, [i, share, way]] of rows(enumerate(rows_of(tangent.contacts)))) {
+move = 0.0;
+if ((lt(add(k, 1), len(paths)) && gt(item(item(paths, add(k, 1)), 0).radius_m, r))) {
+move = neg(_turned(item(item(paths, k), 2)));
 } else {
-set_item(self._length, to, self._length_of(expansion, i));
-set_item(self._parent, to, [expansion, i]);
-self._expand(to);
+if ((lt(add(k, 1), len(paths)) && gt(item(item(paths, k), 0).radius_m, r))) {
+move = _turned(item(item(paths, add(k, 1)), 0));
 }
 }
+append_(rows_, [i, beside(item(self._curves, i), share, div(move, or(item(self._curves, i).width, () => math.inf))), way]);
 }
-expansion.next = add(expansion.next, 1);
-self._push(k);
+found = self._chains(placed(self._curves, rows_), math.inf, 0.0, 1);
+if ((!truth(found) || ne(len(item(found, 0).paths), len(paths)))) {
+return chain;
 }
-return sorted(values_(found), { key: ((chain) => chain.length_m) });
+tangent = item(found, 0);
 }
-_pose(node) {
+return (lt(tangent.length_m, chain.length_m) ? tangent : chain);
+}
+*_rows_near(chain, k, step, refined) {
+let curve, i, moves, share, way, width;
 const self = this;
-if (eq(node, self._contacts.x.size)) {
-return self._start;
+[i, share, way] = iter(item(rows_of(chain.contacts), k));
+curve = item(self._curves, i);
+width = div(step, curve.steps(self._problem.aircraft.turn_radius_m, refined));
+moves = list(iter([-2, -1, 0, 1, 2])).map((m) => mul(m, width));
+yield* iter(list(iter(moves)).map((move) => [i, beside(curve, share, move), way]));
 }
-return Pose2(float(item(self._contacts.x, node)), float(item(self._contacts.y, node)), float(item(self._headings, node)));
-}
-_expand(node) {
-let at, bound, order, words;
+_maneuver(chain) {
+let control, here, length_m, miss_m, now, problem, radius_m, segments, turn;
 const self = this;
-
-at = (eq(node, self._contacts.x.size) ? null : node);
-words = self._air.words(self._pose(node), at, self._contacts, self._headings);
-bound = add(add(item(self._length, node), _cost(words)), item(self._least, words.to));
-order = np.argsort(bound, { kind: "stable" });
-order = item(order, bit_and(lt(item(bound, order), self._most_m), eq(item(self._length, item(words.to, order)), math.inf)));
-append_(self._expansions, _Expansion(node, item(bound, order), words.take(order), np.full(order.size, UNKNOWN)));
-self._push(sub(len(self._expansions), 1));
+problem = self._problem;
+segments = [];
+[here, now] = iter([problem.pose, 0.0]);
+for ([control, length_m, radius_m] of rows(_merged(chain))) {
+append_(segments, segment(here, now, item(clear_entry_LETTERS, control), length_m, problem.aircraft, problem.wind, radius_m));
+[here, now] = iter([item(segments, -1).end, add(now, item(segments, -1).duration_s)]);
 }
-_push(k) {
-let expansion;
-const self = this;
-expansion = item(self._expansions, k);
-if (lt(expansion.next, expansion.bound.size)) {
-heappush(self._heap, [float(item(expansion.bound, expansion.next)), k]);
-}
-}
-_check(expansion) {
-let chosen, open_, rest;
-const self = this;
-rest = slice(expansion.next, null);
-open_ = bit_and(eq(item(self._length, item(expansion.words.to, rest)), math.inf), eq(item(expansion.clear, rest), UNKNOWN));
-chosen = add(sliced(item(open_.nonzero(), 0), null, BATCH, null), expansion.next);
-set_item(expansion.clear, chosen, self._air.are_clear(self._pose(expansion.node), expansion.words.take(chosen)));
-}
-_length_of(expansion, i) {
-const self = this;
-return float(add(item(self._length, expansion.node), item(_cost(expansion.words.take([i])), 0)));
-}
-_chain(expansion, i, to) {
-let before, columns, k, last, nodes, paths, words;
-const self = this;
-[nodes, paths, last] = iter([[to], [], [expansion, i]]);
-while (truth(true)) {
-[words, k] = iter([item(last, 0).words, item(last, 1)]);
-columns = [item(words.control, k), item(words.length, k), item(words.radius, k)];
-append_(paths, tuple(list(iter(zip(...iter(columns)))).map((piece) => Piece(...iter(map(float, piece))))));
-before = item(self._parent, item(last, 0).node);
-if ((before == null)) {
-break;
-}
-append_(nodes, item(last, 0).node);
-last = before;
-}
-return Chain(self._length_of(expansion, i), tuple(reversed(paths)), self._contacts.take(sliced(nodes, null, null, -1)));
+turn = (gt(item(chain.contacts.way, -1), 0) ? Turn.CCW : Turn.CW);
+miss_m = abs(sub(problem.orbit.distance_m(here), problem.orbit.radius_m));
+return Maneuver(problem.pose, problem.orbit, problem.aircraft, turn, tuple(segments), miss_m, problem.wind);
 }
 }, []);
-
-function rows_of(contacts) {
-return list(zip(tolist_(contacts.curve), tolist_(contacts.share), tolist_(contacts.way)));
-}
-
-function _turned(piece) {
-return div(mul(piece.control, piece.length_m), piece.radius_m);
-}
-
-function beside(curve, share, by) {
-return (truth(curve.closed) ? mod(add(share, by), 1.0) : min(max(add(share, by), 0.0), 1.0));
-}
-
-function _merged(chain) {
-let merged, piece;
-merged = [];
-for (piece of iter(list(iter(chain.paths)).flatMap((path) => list(iter(path)).map((piece) => piece)))) {
-if (lt(piece.length_m, NO_PIECE_M)) {
-continue;
-}
-if ((truth(merged) && eq([item(merged, -1).control, item(merged, -1).radius_m], [piece.control, piece.radius_m]))) {
-append_(merged, replace(piece, { length_m: add(piece.length_m, pop_(merged).length_m) }));
-} else {
-append_(merged, piece);
-}
-}
-return merged;
-}
 
 function arc_to_edge(arcs, edges) {
 return _least(...iter(arc_edge_points(arcs, edges)));
@@ -6249,306 +5810,289 @@ path = _path(placed_arrival(problem, turn, time_s, bearing_deg));
 return ((path == null) ? null : _maneuver(problem, path, turn, time_s, bearing_deg));
 }
 
-function* _zone_curves(zone, clearance_m) {
-let radius_m;
-if (truth(isinstance(zone, PolygonZone))) {
-yield* iter(_polygon_curves(zone, clearance_m));
-return;
+const ClearEntry = struct(class extends Tuple {
+constructor(maneuver, check, later_s, tried, blocking, least_s = 0.0, searched = false) {
+super();
+this.maneuver = maneuver;
+this.check = check;
+this.later_s = later_s;
+this.tried = tried;
+this.blocking = blocking;
+this.least_s = least_s;
+this.searched = searched;
+
 }
-radius_m = (truth(zone.inclusion) ? sub(zone.radius_m, clearance_m) : add(zone.radius_m, clearance_m));
-if (gt(radius_m, 0.0)) {
-yield Curve(zone.east_m, zone.north_m, radius_m, 0.0, math.tau, 0.0, 0.0, [1, -1]);
+get is_fastest() {
+const self = this;
+return and(and((self.maneuver != null), () => eq(self.tried, 1)), () => !truth(self.searched));
 }
+get sentence() {
+let later, what;
+const self = this;
+if ((self.maneuver == null)) {
+return self._refusal;
+}
+if (truth(self.is_fastest)) {
+return "The fastest entry is clear.";
+}
+later = (ge(self.later_s, SAME_TIME_S) ? `joins ${format(self.later_s, `.1f`)} s later` : "is as fast");
+what = (truth(self.searched) ? "The fastest clear entry found" : "The first candidate that is clear");
+return `${str(what)} ${str(later)}: ${str(self.maneuver)}`;
+}
+get _refusal() {
+let zones;
+const self = this;
+zones = join_(" and ", map(repr, self.blocking));
+if (eq(self.least_s, math.inf)) {
+return `No entry is clear: ${str(zones)} blocks the circle itself, or every way to it.`;
+}
+if (truth(self.searched)) {
+return `No entry found: ${str(zones)} blocks here.`;
+}
+return `No entry found: of the ${str(self.tried)} candidates none is clear, ${str(zones)} blocks here.`;
+}
+}, ["maneuver", "check", "later_s", "tried", "blocking", "least_s", "searched"], 'ClearEntry');
+
+function curves_of(fence, orbit, clearance_m) {
+let circle, found, ways;
+found = list(iter(fence.zones)).flatMap((zone) => list(iter(_zone_curves(zone, clearance_m))).map((curve) => curve));
+ways = get_(new Map([[Turn.CW, [-1]], [Turn.CCW, [1]]]), orbit.turn, [1, -1]);
+circle = Curve(orbit.east_m, orbit.north_m, orbit.radius_m, 0.0, math.tau, 0.0, 0.0, ways, true);
+return [...iter(found), circle, replace(circle, { anywhere: true })];
 }
 
-const Curve = struct(class extends Tuple {
-constructor(x, y, radius, a, width, dx, dy, ways, joined = false, anywhere = false) {
+function clear_entry__air(fence, problem, margin_m, curves) {
+return (truth(problem.still) ? StillAir(fence, problem, margin_m, curves) : SteadyWind(fence, problem, margin_m));
+}
+
+const Pose2 = struct(class extends Tuple {
+constructor(x, y, heading) {
 super();
 this.x = x;
 this.y = y;
-this.radius = radius;
-this.a = a;
-this.width = width;
-this.dx = dx;
-this.dy = dy;
-this.ways = ways;
-this.joined = joined;
-this.anywhere = anywhere;
+this.heading = heading;
 
 }
-get closed() {
-const self = this;
-return eq(self.width, math.tau);
-}
-steps(turn_radius_m, refined) {
-let length, on_line;
-const self = this;
-if (truth(self.joined)) {
-return (truth(self.anywhere) ? 1 : mul(JOINS, refined));
-}
-length = math.hypot(self.dx, self.dy);
-on_line = min(math.ceil(div(length, mul(LINE_STEP, turn_radius_m))), MOST_ON_LINE);
-return max(1, mul(refined, max(on_line, math.ceil(div(self.width, ARC_STEP_RAD)))));
-}
-}, ["x", "y", "radius", "a", "width", "dx", "dy", "ways", "joined", "anywhere"], 'Curve');
+}, ["x", "y", "heading"], 'Pose2');
 
-function words_between(x, y, angle, to_x, to_y, to_angle, radius) {
-let across, along, c, control, dx, dy, exists, found, lengths, s, turned, u, word;
-
-[c, s] = iter([np.cos(angle), np.sin(angle)]);
-[dx, dy] = iter([div(sub(to_x, x), radius), div(sub(to_y, y), radius)]);
-[along, across, turned] = iter([add(mul(dx, c), mul(dy, s)), sub(mul(dy, c), mul(dx, s)), sub(to_angle, angle)]);
-found = [];
-for (u of iter([1.0, -1.0])) {
-for (word of iter(_left_words(along, mul(u, across), mul(u, turned)))) {
-lengths = np.stack([word.first, word.middle, word.last], { axis: -1 });
-exists = np.flatnonzero(np.isfinite(lengths).all({ axis: 1 }));
-control = np.tile(mul(np.array(word.control), u), [exists.size, 1]);
-append_(found, Words(exists, control, mul(item(lengths, exists), radius), np.full(control.shape, radius)));
-}
-}
-return Words.joined(found);
-}
-
-function _onto_circle(entries, contacts, radius_m) {
-let control, ends, entry, rows_;
-ends = new Map(list(iter(tolist_(item(contacts.anywhere.nonzero(), 0)))).map((i) => [int(item(contacts.way, i)), i]));
+function rows_on(curves, turn_radius_m, refined) {
+let curve, i, n, rows_, shares;
 rows_ = [];
-for (entry of iter(entries)) {
-if (has(neg(entry.side), ends)) {
-control = tuple(list(iter(kernel.controls(entry.word))).map((u) => (ne(u, ABSENT) ? float(u) : 0.0)));
-append_(rows_, Word(item(ends, neg(entry.side)), control, [entry.t1, entry.t2, entry.t3]));
-}
-}
-return Words.of(rows_, radius_m);
-}
-
-const Words = struct(class extends Tuple {
-constructor(to, control, length, radius) {
-super();
-this.to = to;
-this.control = control;
-this.length = length;
-this.radius = radius;
-
-}
-take(i) {
-const self = this;
-return Words(...iter(list(iter(self)).map((column) => item(column, i))));
-}
-static of(cls, words, radius) {
-let control, length, to;
-
-to = np.array(list(iter(words)).map((word) => word.to), np.intp);
-[control, length] = iter(list(iter([list(iter(words)).map((word) => word.control), list(iter(words)).map((word) => word.length)])).map((rows_) => np.array(rows_, float).reshape(-1, 3)));
-return cls(to, control, mul(length, radius), np.full(length.shape, radius));
-}
-static joined(cls, several) {
-
-return cls(...iter(list(iter(zip(...iter(several)))).map((columns) => np.concatenate(columns))));
-}
-}, ["to", "control", "length", "radius"], 'Words');
-
-function _clear_arcs(fence, arcs, margin_m) {
-let circles, clear, found, least, outside;
-
-[clear, least] = iter([np.ones(item(arcs.x.shape, 0), bool), add(margin_m, TOUCH_M)]);
-if (truth(fence.polygons)) {
-clear = bit_and(clear, gt(arc_to_edge(arcs, fence.edges).distance.min({ axis: 1 }), least));
-}
-if (truth(fence.circle_zones)) {
-circles = fence.circles;
-found = arc_to_point(arcs, circles.x, circles.y);
-outside = np.where(gt(circles.sign, 0.0), found.least.distance, found.largest.distance);
-clear = bit_and(clear, gt(mul(circles.sign, sub(outside, circles.radius)).min({ axis: 1 }), least));
-}
-return clear;
-}
-
-const Arcs = struct(class extends Tuple {
-constructor(x, y, radius, nx, ny, u, angle) {
-super();
-this.x = x;
-this.y = y;
-this.radius = radius;
-this.nx = nx;
-this.ny = ny;
-this.u = u;
-this.angle = angle;
-
-}
-share(qx, qy) {
-let turned;
-const self = this;
-
-turned = np.arctan2(mul(self.u, sub(mul(self.nx, qy), mul(self.ny, qx))), add(mul(self.nx, qx), mul(self.ny, qy)));
-return div(np.where(lt(turned, 0.0), add(turned, mul(2.0, np.pi)), turned), np.maximum(self.angle, np.finfo(float).tiny));
-}
-direction(share) {
-let c, s;
-const self = this;
-
-[c, s] = iter([np.cos(mul(share, self.angle)), mul(self.u, np.sin(mul(share, self.angle)))]);
-return [sub(mul(self.nx, c), mul(self.ny, s)), add(mul(self.ny, c), mul(self.nx, s))];
-}
-}, ["x", "y", "radius", "nx", "ny", "u", "angle"], 'Arcs');
-
-function _clear_chords(fence, ends, margin_m) {
-let ax, ay, bx, by, circles, clear, far, least, near, outside;
-
-[ax, ay, bx, by] = iter(list(iter(ends)).map((v) => item(v, [slice(null, null), null])));
-[clear, least] = iter([np.ones(item(ax.shape, 0), bool), add(margin_m, TOUCH_M)]);
-if (truth(fence.polygons)) {
-clear = bit_and(clear, gt(chord_to_edge(ax, ay, bx, by, fence.edges).nearest.distance.min({ axis: 1 }), least));
-}
-if (truth(fence.circle_zones)) {
-circles = fence.circles;
-near = chord_to_point(ax, ay, bx, by, circles.x, circles.y).distance;
-far = np.maximum(np.hypot(sub(ax, circles.x), sub(ay, circles.y)), np.hypot(sub(bx, circles.x), sub(by, circles.y)));
-outside = np.where(gt(circles.sign, 0.0), near, far);
-clear = bit_and(clear, gt(mul(circles.sign, sub(outside, circles.radius)).min({ axis: 1 }), least));
-}
-return clear;
-}
-
-const WindScene = struct(class extends Tuple {
-constructor(x, y, c, s, R, wx, wy, arc_tolerance) {
-super();
-this.x = x;
-this.y = y;
-this.c = c;
-this.s = s;
-this.R = R;
-this.wx = wx;
-this.wy = wy;
-this.arc_tolerance = arc_tolerance;
-
-}
-}, ["x", "y", "c", "s", "R", "wx", "wy", "arc_tolerance"], 'WindScene');
-
-const Word = struct(class extends Tuple {
-constructor(to, control, length) {
-super();
-this.to = to;
-this.control = control;
-this.length = length;
-
-}
-}, ["to", "control", "length"], 'Word');
-
-function airs__flown(x, y, heading, u, length, r, wx, wy) {
-let angle, chord, half;
-
-angle = div(length, r);
-[half, chord] = iter([add(heading, mul(mul(0.5, u), angle)), np.where(eq(u, 0.0), length, mul(mul(2.0, r), np.sin(mul(0.5, angle))))]);
-return [add(add(x, mul(chord, np.cos(half))), mul(wx, length)), add(add(y, mul(chord, np.sin(half))), mul(wy, length))];
-}
-
-function* _turns_at(curves, u, cx, cy, distance, radius_m) {
-let curve, i, normal, offset, share, tx, ty, way;
 for ([i, curve] of rows(enumerate(curves))) {
-for (way of iter((truth(curve.joined) ? [] : curve.ways))) {
-offset = sub(curve.radius, mul(mul(u, way), radius_m));
-if ((lt(mul(u, way), 0) || (gt(curve.width, 0.0) && lt(curve.radius, radius_m)))) {
-for (share of iter(_shares_at(curve, offset, cx, cy, distance))) {
-normal = add(curve.a, mul(share, curve.width));
-[tx, ty] = iter([add(curve.x, mul(share, curve.dx)), add(curve.y, mul(share, curve.dy))]);
-yield [[i, share, way], add(tx, mul(offset, math.cos(normal))), add(ty, mul(offset, math.sin(normal)))];
+n = curve.steps(turn_radius_m, refined);
+shares = (truth(curve.closed) ? list(iter(range(n))).map((k) => div(k, n)) : list(iter(range(add(n, 1)))).map((k) => div(k, n)));
+rows_ = add(rows_, list(iter(shares)).flatMap((share) => list(iter(curve.ways)).map((way) => [i, share, way])));
 }
-}
-}
-}
+return rows_;
 }
 
-function _tangents(cx, cy, radius, u, curve, way) {
-let apart, cosine, dx, dy, found, normal, share, side;
-[dx, dy] = iter([sub(curve.x, cx), sub(curve.y, cy)]);
-apart = math.hypot(dx, dy);
-cosine = (gt(apart, 0.0) ? div(sub(mul(mul(u, way), radius), curve.radius), apart) : math.inf);
-if (gt(abs(cosine), 1.0)) {
-return [];
-}
-found = [];
-for (side of iter([1.0, -1.0])) {
-normal = add(math.atan2(dy, dx), mul(side, math.acos(cosine)));
-share = div(mod(sub(normal, curve.a), math.tau), curve.width);
-if ((le(share, 1.0) && ge(mul(way, sub(mul(dy, math.cos(normal)), mul(dx, math.sin(normal)))), 0.0))) {
-append_(found, [(eq(u, way) ? normal : add(normal, math.pi)), share]);
+function rows_without_straight(curves, x, y, angle, radius_m) {
+let circle, cx, cy, distance, k, row, rows_, tx, ty, u, way;
+rows_ = [];
+for (u of iter([1, -1])) {
+[cx, cy] = iter([add(x, mul(mul(u, radius_m), math.sin(angle))), sub(y, mul(mul(u, radius_m), math.cos(angle)))]);
+rows_ = add(rows_, list(iter(_turns_at(curves, u, cx, cy, mul(2.0, radius_m), radius_m))).map((one) => iter(one)).map(([row, _0, _]) => row));
+for ([k, circle] of rows(enumerate(curves))) {
+for (way of iter(((truth(circle.joined) && !truth(circle.anywhere)) ? circle.ways : []))) {
+distance = sub(circle.radius, mul(mul(u, way), radius_m));
+for ([row, tx, ty] of rows(_turns_at(curves, u, circle.x, circle.y, distance, radius_m))) {
+rows_ = add(rows_, [row, [k, div(mod(math.atan2(sub(ty, circle.y), sub(tx, circle.x)), math.tau), math.tau), way]]);
 }
 }
-return found;
+}
+}
+return rows_;
 }
 
-const Contacts = struct(class extends Tuple {
-constructor(curve, share, way, x, y, angle, joined, anywhere) {
+function rows_on_tangents(curves, x, y, angle, radius_m) {
+let curve, cx, cy, i, k, normal, other, rows_, share, to, u, way, wide;
+wide = list(iter(enumerate(curves))).map((one) => iter(one)).filter(([i, curve]) => (gt(curve.radius, radius_m) && gt(curve.width, 0.0))).map(([i, curve]) => [i, curve]);
+wide = list(iter(wide)).map((one) => iter(one)).filter(([i, curve]) => !truth(curve.joined)).map(([i, curve]) => [i, curve]);
+rows_ = [];
+for ([i, curve] of rows(wide)) {
+for (way of iter(curve.ways)) {
+for (u of iter([1, -1])) {
+[cx, cy] = iter([sub(x, mul(mul(u, radius_m), math.sin(angle))), add(y, mul(mul(u, radius_m), math.cos(angle)))]);
+rows_ = add(rows_, list(iter(_tangents(cx, cy, radius_m, u, curve, way))).map((one) => iter(one)).map(([_0, to]) => [i, to, way]));
+}
+for ([k, other] of rows(wide)) {
+for (u of iter((ne(k, i) ? other.ways : []))) {
+for ([normal, to] of rows(_tangents(other.x, other.y, other.radius, u, curve, way))) {
+share = div(mod(sub(normal, other.a), math.tau), other.width);
+rows_ = add(rows_, (le(share, 1.0) ? [[i, to, way], [k, share, u]] : []));
+}
+}
+}
+}
+}
+return rows_;
+}
+
+function placed(curves, rows_) {
+let a, anywhere, dx, dy, indices, joined, normal, places, radius, shares, ways, width, x, y;
+
+[indices, shares, ways] = iter(list(iter(zip(...iter(rows_)))).map((column) => np.array(column)));
+[x, y, radius, a, width, dx, dy] = iter(item(np.array(list(iter(curves)).map((curve) => sliced(curve, null, 7, null))), indices).T);
+normal = add(a, mul(shares, width));
+places = [add(add(x, mul(radius, np.cos(normal))), mul(shares, dx)), add(add(y, mul(radius, np.sin(normal))), mul(shares, dy))];
+[joined, anywhere] = iter(list(iter(["joined", "anywhere"])).map((name) => item(np.array(list(iter(curves)).map((curve) => curve[name])), indices)));
+return Contacts(indices, shares, ways, ...iter(places), add(normal, mul(ways, mul(0.5, math.pi))), joined, anywhere);
+}
+
+function clear_points(fence, east_m, north_m, margin_m) {
+let clear, distance, outside, zone;
+
+clear = np.ones(east_m.size, bool);
+for (zone of iter(fence.zones)) {
+if (truth(isinstance(zone, CircleZone))) {
+outside = sub(np.hypot(sub(east_m, zone.east_m), sub(north_m, zone.north_m)), zone.radius_m);
+clear = bit_and(clear, gt((truth(zone.inclusion) ? neg(outside) : outside), margin_m));
+} else {
+distance = to_edge(item(east_m, [slice(null, null), null]), item(north_m, [slice(null, null), null]), edges_of([zone])).min({ axis: 1 });
+clear = bit_and(clear, gt(mul(distance, polygon_sign(zone, east_m, north_m)), margin_m));
+}
+}
+return clear;
+}
+
+const ChainSearch = struct(class extends Values {
+constructor(air, start, contacts, most_m, most_poses) {
 super();
-this.curve = curve;
-this.share = share;
-this.way = way;
-this.x = x;
-this.y = y;
-this.angle = angle;
-this.joined = joined;
-this.anywhere = anywhere;
-
-}
-take(i) {
 const self = this;
-return Contacts(...iter(list(iter(self)).map((column) => item(column, i))));
+
+[self._air, self._start, self._contacts] = iter([air, start, contacts]);
+self._headings = air.headings(contacts);
+self._least = air.least_lengths(contacts, self._headings);
+[self._most_m, self._most_poses] = iter([most_m, most_poses]);
+self._length = np.full(add(contacts.x.size, 1), math.inf);
+self._parent = mul([null], add(contacts.x.size, 1));
+self._heap = [];
+self._expansions = [];
 }
-}, ["curve", "share", "way", "x", "y", "angle", "joined", "anywhere"], 'Contacts');
+chains(slack_m, most) {
+let bound, chain, expansion, found, i, k, to, touched, until;
+const self = this;
+found = new Map([]);
+set_item(self._length, -1, 0.0);
+self._expand(self._contacts.x.size);
+until = self._most_m;
+while ((truth(self._heap) && lt(len(found), most))) {
+[bound, k] = iter(heappop(self._heap));
+if ((ge(bound, until) || gt(len(self._expansions), self._most_poses))) {
+break;
+}
+expansion = item(self._expansions, k);
+i = expansion.next;
+to = int(item(expansion.words.to, i));
+if (eq(item(self._length, to), math.inf)) {
+if (eq(item(expansion.clear, i), UNKNOWN)) {
+self._check(expansion);
+}
+if (eq(item(expansion.clear, i), CLEAR)) {
+if (truth(item(self._contacts.joined, to))) {
+chain = self._chain(expansion, i, to);
+until = min(until, add(chain.length_m, slack_m));
+touched = _touched(chain);
+if (!has(touched, found)) {
+set_item(found, touched, chain);
+}
+} else {
+set_item(self._length, to, self._length_of(expansion, i));
+set_item(self._parent, to, [expansion, i]);
+self._expand(to);
+}
+}
+}
+expansion.next = add(expansion.next, 1);
+self._push(k);
+}
+return sorted(values_(found), { key: ((chain) => chain.length_m) });
+}
+_pose(node) {
+const self = this;
+if (eq(node, self._contacts.x.size)) {
+return self._start;
+}
+return Pose2(float(item(self._contacts.x, node)), float(item(self._contacts.y, node)), float(item(self._headings, node)));
+}
+_expand(node) {
+let at, bound, order, words;
+const self = this;
 
-function polygon_sign(zone, east_m, north_m) {
-let inside;
+at = (eq(node, self._contacts.x.size) ? null : node);
+words = self._air.words(self._pose(node), at, self._contacts, self._headings);
+bound = add(add(item(self._length, node), _cost(words)), item(self._least, words.to));
+order = np.argsort(bound, { kind: "stable" });
+order = item(order, bit_and(lt(item(bound, order), self._most_m), eq(item(self._length, item(words.to, order)), math.inf)));
+append_(self._expansions, _Expansion(node, item(bound, order), words.take(order), np.full(order.size, UNKNOWN)));
+self._push(sub(len(self._expansions), 1));
+}
+_push(k) {
+let expansion;
+const self = this;
+expansion = item(self._expansions, k);
+if (lt(expansion.next, expansion.bound.size)) {
+heappush(self._heap, [float(item(expansion.bound, expansion.next)), k]);
+}
+}
+_check(expansion) {
+let chosen, open_, rest;
+const self = this;
+rest = slice(expansion.next, null);
+open_ = bit_and(eq(item(self._length, item(expansion.words.to, rest)), math.inf), eq(item(expansion.clear, rest), UNKNOWN));
+chosen = add(sliced(item(open_.nonzero(), 0), null, BATCH, null), expansion.next);
+set_item(expansion.clear, chosen, self._air.are_clear(self._pose(expansion.node), expansion.words.take(chosen)));
+}
+_length_of(expansion, i) {
+const self = this;
+return float(add(item(self._length, expansion.node), item(_cost(expansion.words.take([i])), 0)));
+}
+_chain(expansion, i, to) {
+let before, columns, k, last, nodes, paths, words;
+const self = this;
+[nodes, paths, last] = iter([[to], [], [expansion, i]]);
+while (truth(true)) {
+[words, k] = iter([item(last, 0).words, item(last, 1)]);
+columns = [item(words.control, k), item(words.length, k), item(words.radius, k)];
+append_(paths, tuple(list(iter(zip(...iter(columns)))).map((piece) => Piece(...iter(map(float, piece))))));
+before = item(self._parent, item(last, 0).node);
+if ((before == null)) {
+break;
+}
+append_(nodes, item(last, 0).node);
+last = before;
+}
+return Chain(self._length_of(expansion, i), tuple(reversed(paths)), self._contacts.take(sliced(nodes, null, null, -1)));
+}
+}, []);
 
-
-inside = shapely.contains_xy(zone._polygon, east_m, north_m);
-return np.where(eq(inside, zone.inclusion), 1.0, -1.0);
+function rows_of(contacts) {
+return list(zip(tolist_(contacts.curve), tolist_(contacts.share), tolist_(contacts.way)));
 }
 
-function _touched(chain) {
-let touched;
-touched = zip(tolist_(chain.contacts.curve), tolist_(chain.contacts.way));
-return join_(" ", dict.fromkeys(list(iter(touched)).map((one) => iter(one)).map(([curve, way]) => `${format(curve, `d`)},${format(way, `d`)}`)));
+function _turned(piece) {
+return div(mul(piece.control, piece.length_m), piece.radius_m);
 }
 
-function _cost(words) {
-let cost;
-cost = add(words.length.sum({ axis: 1 }), mul(PIECE_M, gt(words.length, NO_PIECE_M).sum({ axis: 1 })));
-return cost;
+function beside(curve, share, by) {
+return (truth(curve.closed) ? mod(add(share, by), 1.0) : min(max(add(share, by), 0.0), 1.0));
 }
 
-const _Expansion = struct(class extends Values {
-constructor(node, bound, words, clear, next = 0) {
-super();
-this.node = node;
-this.bound = bound;
-this.words = words;
-this.clear = clear;
-this.next = next;
-
+function _merged(chain) {
+let merged, piece;
+merged = [];
+for (piece of iter(list(iter(chain.paths)).flatMap((path) => list(iter(path)).map((piece) => piece)))) {
+if (lt(piece.length_m, NO_PIECE_M)) {
+continue;
 }
-}, ["node", "bound", "words", "clear", "next"], '_Expansion');
-
-const Piece = struct(class extends Tuple {
-constructor(control, length_m, radius_m) {
-super();
-this.control = control;
-this.length_m = length_m;
-this.radius_m = radius_m;
-
+if ((truth(merged) && eq([item(merged, -1).control, item(merged, -1).radius_m], [piece.control, piece.radius_m]))) {
+append_(merged, replace(piece, { length_m: add(piece.length_m, pop_(merged).length_m) }));
+} else {
+append_(merged, piece);
 }
-}, ["control", "length_m", "radius_m"], 'Piece');
-
-const Chain = struct(class extends Tuple {
-constructor(length_m, paths, contacts) {
-super();
-this.length_m = length_m;
-this.paths = paths;
-this.contacts = contacts;
-
 }
-}, ["length_m", "paths", "contacts"], 'Chain');
+return merged;
+}
 
 function _least(distances, shares) {
 let best, every;
@@ -6580,6 +6124,34 @@ set_item(share, 1, unpacked1[1]);
 distance = np.where(le(share, 1.0), to_edge(add(arcs.x, mul(arcs.radius, qx)), add(arcs.y, mul(arcs.radius, qy)), edges), np.inf);
 return [distance, share];
 }
+
+const Arcs = struct(class extends Tuple {
+constructor(x, y, radius, nx, ny, u, angle) {
+super();
+this.x = x;
+this.y = y;
+this.radius = radius;
+this.nx = nx;
+this.ny = ny;
+this.u = u;
+this.angle = angle;
+
+}
+share(qx, qy) {
+let turned;
+const self = this;
+
+turned = np.arctan2(mul(self.u, sub(mul(self.nx, qy), mul(self.ny, qx))), add(mul(self.nx, qx), mul(self.ny, qy)));
+return div(np.where(lt(turned, 0.0), add(turned, mul(2.0, np.pi)), turned), np.maximum(self.angle, np.finfo(float).tiny));
+}
+direction(share) {
+let c, s;
+const self = this;
+
+[c, s] = iter([np.cos(mul(share, self.angle)), mul(self.u, np.sin(mul(share, self.angle)))]);
+return [sub(mul(self.nx, c), mul(self.ny, s)), add(mul(self.ny, c), mul(self.nx, s))];
+}
+}, ["x", "y", "radius", "nx", "ny", "u", "angle"], 'Arcs');
 
 function chord_edge_points(ax, ay, bx, by, edges) {
 let c, crosses, crossing, d, from_a, from_b, zero;
@@ -6660,6 +6232,14 @@ zero = np.zeros_like(near.share);
 share = np.stack([zero, add(zero, 1.0), near.share, div(sub(along, half), length), div(add(along, half), length)]);
 from_centre = np.hypot(sub(add(ax, mul(share, sub(bx, ax))), x), sub(add(ay, mul(share, sub(by, ay))), y));
 return [np.where(bit_and(ge(share, 0.0), le(share, 1.0)), abs(sub(from_centre, radius)), np.inf), share];
+}
+
+function polygon_sign(zone, east_m, north_m) {
+let inside;
+
+
+inside = shapely.contains_xy(zone._polygon, east_m, north_m);
+return np.where(eq(inside, zone.inclusion), 1.0, -1.0);
 }
 
 function degrees_of(latitude_deg, longitude_deg) {
@@ -6749,55 +6329,314 @@ miss_m = math.hypot(sub(sub(end.east_m, orbit.east_m), mul(orbit.radius_m, east)
 return Maneuver(problem.pose, problem.orbit, problem.aircraft, turn, segments, miss_m, problem.wind);
 }
 
-function* _polygon_curves(zone, clearance_m) {
-let corners, ex, ey, fx, fy, normal, sides, turned, x, y;
-corners = _forbidden_left(zone);
-sides = list(iter(zip(corners, [...iter(sliced(corners, 1, null, null)), item(corners, 0)]))).map((one) => iter(one)).map(([a, b]) => [sub(item(b, 0), item(a, 0)), sub(item(b, 1), item(a, 1))]);
-for ([[x, y], [ex, ey], [fx, fy]] of rows(zip(corners, [item(sides, -1), ...iter(sliced(sides, null, -1, null))], sides))) {
-normal = math.atan2(neg(fx), fy);
-yield Curve(x, y, clearance_m, normal, 0.0, fx, fy, [1, -1]);
-turned = math.atan2(sub(mul(ex, fy), mul(ey, fx)), add(mul(ex, fx), mul(ey, fy)));
-if (gt(turned, 0.0)) {
-yield Curve(x, y, clearance_m, sub(normal, turned), turned, 0.0, 0.0, [1, -1]);
+function* _zone_curves(zone, clearance_m) {
+let radius_m;
+if (truth(isinstance(zone, PolygonZone))) {
+yield* iter(_polygon_curves(zone, clearance_m));
+return;
+}
+radius_m = (truth(zone.inclusion) ? sub(zone.radius_m, clearance_m) : add(zone.radius_m, clearance_m));
+if (gt(radius_m, 0.0)) {
+yield Curve(zone.east_m, zone.north_m, radius_m, 0.0, math.tau, 0.0, 0.0, [1, -1]);
+}
+}
+
+const Curve = struct(class extends Tuple {
+constructor(x, y, radius, a, width, dx, dy, ways, joined = false, anywhere = false) {
+super();
+this.x = x;
+this.y = y;
+this.radius = radius;
+this.a = a;
+this.width = width;
+this.dx = dx;
+this.dy = dy;
+this.ways = ways;
+this.joined = joined;
+this.anywhere = anywhere;
+
+}
+get closed() {
+const self = this;
+return eq(self.width, math.tau);
+}
+steps(turn_radius_m, refined) {
+let length, on_line;
+const self = this;
+if (truth(self.joined)) {
+return (truth(self.anywhere) ? 1 : mul(JOINS, refined));
+}
+length = math.hypot(self.dx, self.dy);
+on_line = min(math.ceil(div(length, mul(LINE_STEP, turn_radius_m))), MOST_ON_LINE);
+return max(1, mul(refined, max(on_line, math.ceil(div(self.width, ARC_STEP_RAD)))));
+}
+}, ["x", "y", "radius", "a", "width", "dx", "dy", "ways", "joined", "anywhere"], 'Curve');
+
+const StillAir = struct(class extends Values {
+constructor(fence, problem, margin_m, curves) {
+super();
+const self = this;
+[self._fence, self._problem, self._margin_m, self._curves] = iter([fence, problem, margin_m, curves]);
+self._radius_m = problem.aircraft.turn_radius_m;
+}
+headings(contacts) {
+const self = this;
+return contacts.angle;
+}
+least_lengths(contacts, headings) {
+let c, dx, dy, least, orbit, r, radius, s;
+const self = this;
+
+[orbit, r] = iter([self._problem.orbit, self._radius_m]);
+[dx, dy, c, s] = iter([div(sub(contacts.x, orbit.east_m), r), div(sub(contacts.y, orbit.north_m), r), np.cos(headings), np.sin(headings)]);
+radius = max(self._problem.radius, 1.0);
+least = arrays.min_time(...iter(arrays.reduce_states(dx, dy, c, s)), radius, orbit.turn);
+return np.where(contacts.joined, 0.0, mul(mul(least, r), sub(1.0, ROUNDING)));
+}
+words(start, at, contacts, headings) {
+let found, placed, several;
+const self = this;
+placed = item(invert(contacts.anywhere).nonzero(), 0);
+found = words_between(...iter(start), item(contacts.x, placed), item(contacts.y, placed), item(headings, placed), self._radius_m);
+several = [replace(found, { to: item(placed, found.to) }), _onto_circle(self._entries(start), contacts, self._radius_m)];
+if (((at != null) && gt(item(self._curves, item(contacts.curve, at)).radius, self._radius_m))) {
+append_(several, self._along(at, contacts));
+}
+return Words.joined(several);
+}
+_entries(start) {
+let orbit, place, r, state;
+const self = this;
+[orbit, r] = iter([self._problem.orbit, self._radius_m]);
+place = [div(sub(start.x, orbit.east_m), r), div(sub(start.y, orbit.north_m), r)];
+state = arrays.reduce_states(...iter(place), math.cos(start.heading), math.sin(start.heading));
+return kernel.synthesis_ranked(...iter(state), kernel.rounded_radius(self._problem.radius), item(SIDES, orbit.turn), 0.0);
+}
+_along(at, contacts) {
+let curve, length, others, turned, way, zero;
+const self = this;
+
+[curve, way] = iter([item(self._curves, item(contacts.curve, at)), item(contacts.way, at)]);
+others = item(bit_and(eq(contacts.curve, item(contacts.curve, at)), eq(contacts.way, way)).nonzero(), 0);
+turned = mul(mul(sub(item(contacts.share, others), item(contacts.share, at)), way), curve.width);
+turned = (truth(curve.closed) ? np.mod(turned, math.tau) : turned);
+[others, turned] = iter([item(others, gt(turned, 0.0)), item(turned, gt(turned, 0.0))]);
+zero = np.zeros_like(turned);
+length = np.stack([mul(turned, curve.radius), zero, zero], { axis: -1 });
+return Words(others, np.full(length.shape, float(way)), length, np.full(length.shape, curve.radius));
+}
+are_clear(start, words) {
+let angle, arcs, bent, c, chord, clear, ends, half, heading, k, length, next_x, next_y, nx, ny, radius, s, straight, u, x, y;
+const self = this;
+
+clear = np.ones(words.to.size, bool);
+[x, y, heading] = iter(list(iter(start)).map((value) => np.full(words.to.size, value)));
+for (k of iter(range(3))) {
+[u, length, radius] = iter([item(words.control, [slice(null, null), k]), item(words.length, [slice(null, null), k]), item(words.radius, [slice(null, null), k])]);
+[c, s, angle] = iter([np.cos(heading), np.sin(heading), div(length, radius)]);
+half = mul(mul(0.5, u), angle);
+chord = np.where(eq(u, 0.0), length, mul(mul(2.0, radius), np.sin(mul(0.5, angle))));
+next_x = add(x, mul(chord, np.cos(add(heading, half))));
+next_y = add(y, mul(chord, np.sin(add(heading, half))));
+bent = item(bit_and(bit_and(clear, ne(u, 0.0)), gt(length, 0.0)).nonzero(), 0);
+if (truth(bent.size)) {
+[nx, ny] = iter([mul(u, s), mul(neg(u), c)]);
+arcs = [sub(x, mul(radius, nx)), sub(y, mul(radius, ny)), radius, nx, ny, u, angle];
+set_item(clear, bent, _clear_arcs(self._fence, Arcs(...iter(list(iter(arcs)).map((v) => item(v, [bent, null])))), self._margin_m));
+}
+straight = item(bit_and(bit_and(clear, eq(u, 0.0)), gt(length, 0.0)).nonzero(), 0);
+if (truth(straight.size)) {
+ends = list(iter([x, y, next_x, next_y])).map((v) => item(v, straight));
+set_item(clear, straight, _clear_chords(self._fence, ends, self._margin_m));
+}
+[x, y, heading] = iter([next_x, next_y, add(heading, mul(u, angle))]);
+}
+return clear;
+}
+}, []);
+
+const SteadyWind = struct(class extends Values {
+constructor(fence, problem, margin_m) {
+super();
+const self = this;
+[self._fence, self._problem, self._margin_m] = iter([fence, problem, margin_m]);
+self._radius_m = problem.aircraft.turn_radius_m;
+[self._wx, self._wy] = iter(problem.relative_wind);
+}
+headings(contacts) {
+let across;
+const self = this;
+
+across = sub(mul(self._wy, np.cos(contacts.angle)), mul(self._wx, np.sin(contacts.angle)));
+return sub(contacts.angle, np.arcsin(across));
+}
+least_lengths(contacts, headings) {
+let dx, dy, free, least, orbit, r;
+const self = this;
+
+[orbit, r] = iter([self._problem.orbit, self._radius_m]);
+[dx, dy] = iter([div(sub(contacts.x, orbit.east_m), r), div(sub(contacts.y, orbit.north_m), r)]);
+least = np.zeros(contacts.x.size);
+free = invert(contacts.joined);
+set_item(least, free, arrays.min_time_in_wind(item(dx, free), item(dy, free), item(headings, free), self._problem.radius, orbit.turn, self._wx, self._wy));
+return mul(mul(np.where(np.isfinite(least), least, 0.0), r), sub(1.0, 1e-09));
+}
+words(start, at, contacts, headings) {
+let angle, heading, i, nx, ny, path, phase, placed, places, r, rows_, scene, sx, sy, word, x, y;
+const self = this;
+[r, rows_] = iter([self._radius_m, []]);
+heading = [math.cos(start.heading), math.sin(start.heading)];
+placed = item(invert(contacts.anywhere).nonzero(), 0);
+places = zip(...iter(list(iter([contacts.x, contacts.y, contacts.angle])).map((v) => tolist_(item(v, placed)))));
+for ([i, [x, y, angle]] of rows(zip(tolist_(placed), places))) {
+[nx, ny] = iter([math.sin(angle), neg(math.cos(angle))]);
+[sx, sy] = iter([add(div(sub(start.x, x), r), nx), add(div(sub(start.y, y), r), ny)]);
+scene = WindScene(sx, sy, ...iter(heading), 1.0, self._wx, self._wy, div(kernel.rounding(sx, sy, 1.0), 3.0));
+phase = kernel.phase_of(nx, ny, -1, self._wx, self._wy);
+for (word of iter(SIX)) {
+path = kernel.first_path_of(word, phase, -1, scene, math.inf);
+if (lt(path.time, math.inf)) {
+append_(rows_, Word(i, kernel.controls(path.word), [path.t1, path.t2, path.t3]));
+}
+}
+}
+return Words.joined([Words.of(rows_, r), _onto_circle(self._entries(start), contacts, r)]);
+}
+_entries(start) {
+let heading, orbit, place, problem, r;
+const self = this;
+[orbit, r] = iter([self._problem.orbit, self._radius_m]);
+place = [div(sub(start.x, orbit.east_m), r), div(sub(start.y, orbit.north_m), r)];
+heading = [math.cos(start.heading), math.sin(start.heading)];
+problem = WindProblem(...iter(place), ...iter(heading), self._problem.radius, item(SIDES, orbit.turn), self._wx, self._wy, 0.0);
+return list(iter(kernel.wind_search_ranked(problem))).filter((found) => eq(found.status, kernel.Status.OK)).map((found) => kernel.entry_of(found));
+}
+are_clear(start, words) {
+let clear, counts, ends, flown, good, heading, i, j, k, length, n, r, step, tried, u, width, wind_x, wind_y, x, y;
+const self = this;
+
+[n, r] = iter([words.to.size, self._radius_m]);
+clear = np.ones(n, bool);
+[wind_x, wind_y] = iter([self._wx, self._wy]);
+[x, y, heading] = iter(list(iter(start)).map((value) => np.full(n, value)));
+step = pow(mul(mul(8.0, CHORD_ERROR_M), r), 0.5);
+for (k of iter(range(3))) {
+[u, length] = iter([item(words.control, [slice(null, null), k]), item(words.length, [slice(null, null), k])]);
+tried = item(bit_and(clear, gt(length, 0.0)).nonzero(), 0);
+counts = np.where(eq(item(u, tried), 0.0), 1, np.ceil(div(item(length, tried), step))).astype(np.intp);
+i = np.repeat(tried, counts);
+j = sub(np.arange(i.size), np.repeat(sub(np.cumsum(counts), counts), counts));
+width = div(item(length, i), np.repeat(counts, counts));
+ends = [];
+for (flown of iter([mul(j, width), mul(add(j, 1), width)])) {
+ends = add(ends, airs__flown(item(x, i), item(y, i), item(heading, i), item(u, i), flown, r, wind_x, wind_y));
+}
+good = _clear_chords(self._fence, ends, add(self._margin_m, CHORD_ERROR_M));
+np.logical_and.at(clear, i, good);
+[x, y] = iter(airs__flown(x, y, heading, u, length, r, wind_x, wind_y));
+heading = add(heading, div(mul(u, length), r));
+}
+return clear;
+}
+}, []);
+
+function* _turns_at(curves, u, cx, cy, distance, radius_m) {
+let curve, i, normal, offset, share, tx, ty, way;
+for ([i, curve] of rows(enumerate(curves))) {
+for (way of iter((truth(curve.joined) ? [] : curve.ways))) {
+offset = sub(curve.radius, mul(mul(u, way), radius_m));
+if ((lt(mul(u, way), 0) || (gt(curve.width, 0.0) && lt(curve.radius, radius_m)))) {
+for (share of iter(_shares_at(curve, offset, cx, cy, distance))) {
+normal = add(curve.a, mul(share, curve.width));
+[tx, ty] = iter([add(curve.x, mul(share, curve.dx)), add(curve.y, mul(share, curve.dy))]);
+yield [[i, share, way], add(tx, mul(offset, math.cos(normal))), add(ty, mul(offset, math.sin(normal)))];
+}
+}
 }
 }
 }
 
-function* _left_words(x, y, turned) {
-let ahead, course, cross, far, first, half, last, left_x, left_y, right_x, right_y;
-
-[left_x, left_y] = iter([sub(x, np.sin(turned)), sub(add(y, np.cos(turned)), 1.0)]);
-[right_x, right_y] = iter([add(x, np.sin(turned)), sub(sub(y, np.cos(turned)), 1.0)]);
-far = np.hypot(left_x, left_y);
-ahead = np.where(lt(far, WHOLE_TURN), 0.0, np.arctan2(left_y, left_x));
-yield LeftWord([1.0, 0.0, 1.0], _arc(ahead), far, _arc(sub(turned, ahead)));
-cross = np.sqrt(sub(add(pow(right_x, 2), pow(right_y, 2)), 4.0));
-course = add(np.arctan2(right_y, right_x), np.arctan2(2.0, cross));
-yield LeftWord([1.0, 0.0, -1.0], _arc(course), cross, _arc(sub(course, turned)));
-half = np.arccos(mul(0.25, far));
-[first, last] = iter([_arc(add(add(ahead, half), mul(0.5, math.pi))), _arc(sub(add(sub(turned, ahead), half), mul(1.5, math.pi)))]);
-yield LeftWord([1.0, -1.0, 1.0], first, add(math.pi, mul(2.0, half)), last);
-}
-
-function _shares_at(curve, offset, cx, cy, distance) {
-let a, apart, b, cosine, normals, root_2, shares, wx, wy;
-if (gt(curve.width, 0.0)) {
-[wx, wy] = iter([sub(curve.x, cx), sub(curve.y, cy)]);
-apart = math.hypot(wx, wy);
-cosine = (ne(mul(offset, apart), 0.0) ? div(sub(sub(pow(distance, 2), pow(apart, 2)), pow(offset, 2)), mul(mul(2.0, offset), apart)) : math.inf);
+function _tangents(cx, cy, radius, u, curve, way) {
+let apart, cosine, dx, dy, found, normal, share, side;
+[dx, dy] = iter([sub(curve.x, cx), sub(curve.y, cy)]);
+apart = math.hypot(dx, dy);
+cosine = (gt(apart, 0.0) ? div(sub(mul(mul(u, way), radius), curve.radius), apart) : math.inf);
 if (gt(abs(cosine), 1.0)) {
 return [];
 }
-normals = list(iter([1.0, -1.0])).map((side) => add(math.atan2(wy, wx), mul(side, math.acos(cosine))));
-shares = list(iter(normals)).map((normal) => div(mod(sub(normal, curve.a), math.tau), curve.width));
-} else {
-[wx, wy] = iter([sub(add(curve.x, mul(offset, math.cos(curve.a))), cx), sub(add(curve.y, mul(offset, math.sin(curve.a))), cy)]);
-[a, b] = iter([add(pow(curve.dx, 2), pow(curve.dy, 2)), add(mul(wx, curve.dx), mul(wy, curve.dy))]);
-root_2 = sub(mul(b, b), mul(a, sub(add(mul(wx, wx), mul(wy, wy)), pow(distance, 2))));
-shares = (ge(root_2, 0.0) ? list(iter([1.0, -1.0])).map((side) => div(add(neg(b), mul(side, math.sqrt(root_2))), a)) : []);
+found = [];
+for (side of iter([1.0, -1.0])) {
+normal = add(math.atan2(dy, dx), mul(side, math.acos(cosine)));
+share = div(mod(sub(normal, curve.a), math.tau), curve.width);
+if ((le(share, 1.0) && ge(mul(way, sub(mul(dy, math.cos(normal)), mul(dx, math.sin(normal)))), 0.0))) {
+append_(found, [(eq(u, way) ? normal : add(normal, math.pi)), share]);
 }
-return list(iter(shares)).filter((share) => (le(0.0, share) && le(share, 1.0))).map((share) => share);
 }
+return found;
+}
+
+const Contacts = struct(class extends Tuple {
+constructor(curve, share, way, x, y, angle, joined, anywhere) {
+super();
+this.curve = curve;
+this.share = share;
+this.way = way;
+this.x = x;
+this.y = y;
+this.angle = angle;
+this.joined = joined;
+this.anywhere = anywhere;
+
+}
+take(i) {
+const self = this;
+return Contacts(...iter(list(iter(self)).map((column) => item(column, i))));
+}
+}, ["curve", "share", "way", "x", "y", "angle", "joined", "anywhere"], 'Contacts');
+
+function _touched(chain) {
+let touched;
+touched = zip(tolist_(chain.contacts.curve), tolist_(chain.contacts.way));
+return join_(" ", dict.fromkeys(list(iter(touched)).map((one) => iter(one)).map(([curve, way]) => `${format(curve, `d`)},${format(way, `d`)}`)));
+}
+
+function _cost(words) {
+let cost;
+cost = add(words.length.sum({ axis: 1 }), mul(PIECE_M, gt(words.length, NO_PIECE_M).sum({ axis: 1 })));
+return cost;
+}
+
+const _Expansion = struct(class extends Values {
+constructor(node, bound, words, clear, next = 0) {
+super();
+this.node = node;
+this.bound = bound;
+this.words = words;
+this.clear = clear;
+this.next = next;
+
+}
+}, ["node", "bound", "words", "clear", "next"], '_Expansion');
+
+const Piece = struct(class extends Tuple {
+constructor(control, length_m, radius_m) {
+super();
+this.control = control;
+this.length_m = length_m;
+this.radius_m = radius_m;
+
+}
+}, ["control", "length_m", "radius_m"], 'Piece');
+
+const Chain = struct(class extends Tuple {
+constructor(length_m, paths, contacts) {
+super();
+this.length_m = length_m;
+this.paths = paths;
+this.contacts = contacts;
+
+}
+}, ["length_m", "paths", "contacts"], 'Chain');
 
 function crossing_share(ax, ay, bx, by, edges) {
 let across, along, cross, crosses, dx, dy, ex, ey, px, py, safe;
@@ -6941,29 +6780,162 @@ yield flown;
 }
 }
 
-function _forbidden_left(zone) {
-let area, following;
-following = [...iter(sliced(zone.corners, 1, null, null)), item(zone.corners, 0)];
-area = sum(list(iter(zip(zone.corners, following))).map((one) => iter(one)).map(([[x0, y0], [x1, y1]]) => sub(mul(x0, y1), mul(x1, y0))));
-return (ne(gt(area, 0.0), zone.inclusion) ? zone.corners : sliced(zone.corners, null, null, -1));
+function* _polygon_curves(zone, clearance_m) {
+let corners, ex, ey, fx, fy, normal, sides, turned, x, y;
+corners = _forbidden_left(zone);
+sides = list(iter(zip(corners, [...iter(sliced(corners, 1, null, null)), item(corners, 0)]))).map((one) => iter(one)).map(([a, b]) => [sub(item(b, 0), item(a, 0)), sub(item(b, 1), item(a, 1))]);
+for ([[x, y], [ex, ey], [fx, fy]] of rows(zip(corners, [item(sides, -1), ...iter(sliced(sides, null, -1, null))], sides))) {
+normal = math.atan2(neg(fx), fy);
+yield Curve(x, y, clearance_m, normal, 0.0, fx, fy, [1, -1]);
+turned = math.atan2(sub(mul(ex, fy), mul(ey, fx)), add(mul(ex, fx), mul(ey, fy)));
+if (gt(turned, 0.0)) {
+yield Curve(x, y, clearance_m, sub(normal, turned), turned, 0.0, 0.0, [1, -1]);
+}
+}
 }
 
-const LeftWord = struct(class extends Tuple {
-constructor(control, first, middle, last) {
+function words_between(x, y, angle, to_x, to_y, to_angle, radius) {
+let across, along, c, control, dx, dy, exists, found, lengths, s, turned, u, word;
+
+[c, s] = iter([np.cos(angle), np.sin(angle)]);
+[dx, dy] = iter([div(sub(to_x, x), radius), div(sub(to_y, y), radius)]);
+[along, across, turned] = iter([add(mul(dx, c), mul(dy, s)), sub(mul(dy, c), mul(dx, s)), sub(to_angle, angle)]);
+found = [];
+for (u of iter([1.0, -1.0])) {
+for (word of iter(_left_words(along, mul(u, across), mul(u, turned)))) {
+lengths = np.stack([word.first, word.middle, word.last], { axis: -1 });
+exists = np.flatnonzero(np.isfinite(lengths).all({ axis: 1 }));
+control = np.tile(mul(np.array(word.control), u), [exists.size, 1]);
+append_(found, Words(exists, control, mul(item(lengths, exists), radius), np.full(control.shape, radius)));
+}
+}
+return Words.joined(found);
+}
+
+function _onto_circle(entries, contacts, radius_m) {
+let control, ends, entry, rows_;
+ends = new Map(list(iter(tolist_(item(contacts.anywhere.nonzero(), 0)))).map((i) => [int(item(contacts.way, i)), i]));
+rows_ = [];
+for (entry of iter(entries)) {
+if (has(neg(entry.side), ends)) {
+control = tuple(list(iter(kernel.controls(entry.word))).map((u) => (ne(u, ABSENT) ? float(u) : 0.0)));
+append_(rows_, Word(item(ends, neg(entry.side)), control, [entry.t1, entry.t2, entry.t3]));
+}
+}
+return Words.of(rows_, radius_m);
+}
+
+const Words = struct(class extends Tuple {
+constructor(to, control, length, radius) {
 super();
+this.to = to;
 this.control = control;
-this.first = first;
-this.middle = middle;
-this.last = last;
+this.length = length;
+this.radius = radius;
 
 }
-}, ["control", "first", "middle", "last"], 'LeftWord');
+take(i) {
+const self = this;
+return Words(...iter(list(iter(self)).map((column) => item(column, i))));
+}
+static of(cls, words, radius) {
+let control, length, to;
 
-function _arc(angle) {
-let within;
+to = np.array(list(iter(words)).map((word) => word.to), np.intp);
+[control, length] = iter(list(iter([list(iter(words)).map((word) => word.control), list(iter(words)).map((word) => word.length)])).map((rows_) => np.array(rows_, float).reshape(-1, 3)));
+return cls(to, control, mul(length, radius), np.full(length.shape, radius));
+}
+static joined(cls, several) {
 
-within = np.mod(angle, math.tau);
-return np.where(gt(within, sub(math.tau, WHOLE_TURN)), 0.0, within);
+return cls(...iter(list(iter(zip(...iter(several)))).map((columns) => np.concatenate(columns))));
+}
+}, ["to", "control", "length", "radius"], 'Words');
+
+function _clear_arcs(fence, arcs, margin_m) {
+let circles, clear, found, least, outside;
+
+[clear, least] = iter([np.ones(item(arcs.x.shape, 0), bool), add(margin_m, TOUCH_M)]);
+if (truth(fence.polygons)) {
+clear = bit_and(clear, gt(arc_to_edge(arcs, fence.edges).distance.min({ axis: 1 }), least));
+}
+if (truth(fence.circle_zones)) {
+circles = fence.circles;
+found = arc_to_point(arcs, circles.x, circles.y);
+outside = np.where(gt(circles.sign, 0.0), found.least.distance, found.largest.distance);
+clear = bit_and(clear, gt(mul(circles.sign, sub(outside, circles.radius)).min({ axis: 1 }), least));
+}
+return clear;
+}
+
+function _clear_chords(fence, ends, margin_m) {
+let ax, ay, bx, by, circles, clear, far, least, near, outside;
+
+[ax, ay, bx, by] = iter(list(iter(ends)).map((v) => item(v, [slice(null, null), null])));
+[clear, least] = iter([np.ones(item(ax.shape, 0), bool), add(margin_m, TOUCH_M)]);
+if (truth(fence.polygons)) {
+clear = bit_and(clear, gt(chord_to_edge(ax, ay, bx, by, fence.edges).nearest.distance.min({ axis: 1 }), least));
+}
+if (truth(fence.circle_zones)) {
+circles = fence.circles;
+near = chord_to_point(ax, ay, bx, by, circles.x, circles.y).distance;
+far = np.maximum(np.hypot(sub(ax, circles.x), sub(ay, circles.y)), np.hypot(sub(bx, circles.x), sub(by, circles.y)));
+outside = np.where(gt(circles.sign, 0.0), near, far);
+clear = bit_and(clear, gt(mul(circles.sign, sub(outside, circles.radius)).min({ axis: 1 }), least));
+}
+return clear;
+}
+
+const WindScene = struct(class extends Tuple {
+constructor(x, y, c, s, R, wx, wy, arc_tolerance) {
+super();
+this.x = x;
+this.y = y;
+this.c = c;
+this.s = s;
+this.R = R;
+this.wx = wx;
+this.wy = wy;
+this.arc_tolerance = arc_tolerance;
+
+}
+}, ["x", "y", "c", "s", "R", "wx", "wy", "arc_tolerance"], 'WindScene');
+
+const Word = struct(class extends Tuple {
+constructor(to, control, length) {
+super();
+this.to = to;
+this.control = control;
+this.length = length;
+
+}
+}, ["to", "control", "length"], 'Word');
+
+function airs__flown(x, y, heading, u, length, r, wx, wy) {
+let angle, chord, half;
+
+angle = div(length, r);
+[half, chord] = iter([add(heading, mul(mul(0.5, u), angle)), np.where(eq(u, 0.0), length, mul(mul(2.0, r), np.sin(mul(0.5, angle))))]);
+return [add(add(x, mul(chord, np.cos(half))), mul(wx, length)), add(add(y, mul(chord, np.sin(half))), mul(wy, length))];
+}
+
+function _shares_at(curve, offset, cx, cy, distance) {
+let a, apart, b, cosine, normals, root_2, shares, wx, wy;
+if (gt(curve.width, 0.0)) {
+[wx, wy] = iter([sub(curve.x, cx), sub(curve.y, cy)]);
+apart = math.hypot(wx, wy);
+cosine = (ne(mul(offset, apart), 0.0) ? div(sub(sub(pow(distance, 2), pow(apart, 2)), pow(offset, 2)), mul(mul(2.0, offset), apart)) : math.inf);
+if (gt(abs(cosine), 1.0)) {
+return [];
+}
+normals = list(iter([1.0, -1.0])).map((side) => add(math.atan2(wy, wx), mul(side, math.acos(cosine))));
+shares = list(iter(normals)).map((normal) => div(mod(sub(normal, curve.a), math.tau), curve.width));
+} else {
+[wx, wy] = iter([sub(add(curve.x, mul(offset, math.cos(curve.a))), cx), sub(add(curve.y, mul(offset, math.sin(curve.a))), cy)]);
+[a, b] = iter([add(pow(curve.dx, 2), pow(curve.dy, 2)), add(mul(wx, curve.dx), mul(wy, curve.dy))]);
+root_2 = sub(mul(b, b), mul(a, sub(add(mul(wx, wx), mul(wy, wy)), pow(distance, 2))));
+shares = (ge(root_2, 0.0) ? list(iter([1.0, -1.0])).map((side) => div(add(neg(b), mul(side, math.sqrt(root_2))), a)) : []);
+}
+return list(iter(shares)).filter((share) => (le(0.0, share) && le(share, 1.0))).map((share) => share);
 }
 
 function* stretches(ends) {
@@ -7018,6 +6990,29 @@ high = middle;
 }
 }
 return path_at(stretch.family, low);
+}
+
+function _forbidden_left(zone) {
+let area, following;
+following = [...iter(sliced(zone.corners, 1, null, null)), item(zone.corners, 0)];
+area = sum(list(iter(zip(zone.corners, following))).map((one) => iter(one)).map(([[x0, y0], [x1, y1]]) => sub(mul(x0, y1), mul(x1, y0))));
+return (ne(gt(area, 0.0), zone.inclusion) ? zone.corners : sliced(zone.corners, null, null, -1));
+}
+
+function* _left_words(x, y, turned) {
+let ahead, course, cross, far, first, half, last, left_x, left_y, right_x, right_y;
+
+[left_x, left_y] = iter([sub(x, np.sin(turned)), sub(add(y, np.cos(turned)), 1.0)]);
+[right_x, right_y] = iter([add(x, np.sin(turned)), sub(sub(y, np.cos(turned)), 1.0)]);
+far = np.hypot(left_x, left_y);
+ahead = np.where(lt(far, WHOLE_TURN), 0.0, np.arctan2(left_y, left_x));
+yield LeftWord([1.0, 0.0, 1.0], _arc(ahead), far, _arc(sub(turned, ahead)));
+cross = np.sqrt(sub(add(pow(right_x, 2), pow(right_y, 2)), 4.0));
+course = add(np.arctan2(right_y, right_x), np.arctan2(2.0, cross));
+yield LeftWord([1.0, 0.0, -1.0], _arc(course), cross, _arc(sub(course, turned)));
+half = np.arccos(mul(0.25, far));
+[first, last] = iter([_arc(add(add(ahead, half), mul(0.5, math.pi))), _arc(sub(add(sub(turned, ahead), half), mul(1.5, math.pi)))]);
+yield LeftWord([1.0, -1.0, 1.0], first, add(math.pi, mul(2.0, half)), last);
 }
 
 function* families(ends) {
@@ -7096,6 +7091,24 @@ t2 = ((eq(left, 0.0) && gt(0.0, ahead)) ? math.inf : (eq(left, 0.0) ? chord : di
 t1 = mul(first, sub(add(alpha, azimuth), math.atan2(ends.c0, neg(ends.s0))));
 t3 = mul(last, sub(sub(math.atan2(ends.c, neg(ends.s)), azimuth), beta));
 return ThreeArcs(first, curvature_at(family, alpha), last, mod(t1, TWO_PI), t2, mod(t3, TWO_PI));
+}
+
+const LeftWord = struct(class extends Tuple {
+constructor(control, first, middle, last) {
+super();
+this.control = control;
+this.first = first;
+this.middle = middle;
+this.last = last;
+
+}
+}, ["control", "first", "middle", "last"], 'LeftWord');
+
+function _arc(angle) {
+let within;
+
+within = np.mod(angle, math.tau);
+return np.where(gt(within, sub(math.tau, WHOLE_TURN)), 0.0, within);
 }
 
 const Family = struct(class extends Tuple {
@@ -7280,7 +7293,6 @@ const COUNTED_DEG = 10.0;
 const CHORD_RAD = 0.1;
 const PARTS = new Map([["enter", "ff005ed5"], ["hold", "ff000000"], ["leave", "ffb27200"]]);
 const LAND_START = MissionItem(MavCommand.DO_LAND_START, Frame.NOWHERE, NO_PARAMS, 0.0, 0.0, 0.0);
-const LATE = 1.0;
 const LEAST_MARGIN_M = 5.0;
 const MARGIN_SHARE = 0.05;
 const KNOT = div(1852.0, 3600.0);
@@ -7307,18 +7319,7 @@ const legs_MOST_TURNS = 255;
 const LARGEST_TURNS_RADIUS_M = 255.0;
 const FROM_EXIT = 1.0;
 const HEADING_REQUIRED = 1.0;
-const STILL_AIR_GAP_M = mul(10.0, TOUCH_M);
-const CHORD_ERROR_M = 0.01;
-const WIND_GAP_M = mul(2.1, CHORD_ERROR_M);
-const WIDER = [0.2, 0.5];
-const PASSES = [1, 2];
-const SLACK = 0.5;
-const MOST_CHAINS = 4;
-const MOST_POSES = 1500;
-const MOST_POSES_IN_WIND = 60;
-const HALVINGS = 14;
-const TANGENT_STEPS = 5;
-const clear_entry_LETTERS = new Map(list(iter(items_(CONTROLS))).map((one) => iter(one)).map(([letter, control]) => [float(control), letter]));
+const LATE = 1.0;
 const MOST_LEVELS = 16;
 const SPLIT = 12;
 const FIRST_PART_RAD = 0.8;
@@ -7329,7 +7330,7 @@ const STRAIGHTENS = 0.85;
 const RESOLVED = 0.001;
 const AT_CORNER = "T has a corner: its one-sided derivatives";
 const PIECES = 256;
-const slot_check_PASSES = 60;
+const PASSES = 60;
 const MOST_TIMES = 50000;
 const slot_check_SAMPLES = 2001;
 const NEAR = 0.001;
@@ -7340,26 +7341,38 @@ const FIELD_SHARE = 0.9;
 const MOST_HELD = mul(100000.0, math.tau);
 const LONGER_PATHS = 49;
 const BETWEEN_JOINS = div(math.tau, 24.0);
-const SAME_TIME_S = 0.05;
-const SIX = list(iter([[1, 0, 1], [-1, 0, -1], [1, 0, -1], [-1, 0, 1], [1, -1, 1], [-1, 1, -1]])).map((one) => iter(one)).map(([u, v, w]) => kernel.set_of(arrays.encode(u, v, w)));
-const UNKNOWN = -1;
-const CLEAR = 1;
-const BATCH = 48;
-const NO_PIECE_M = 1e-08;
+const STILL_AIR_GAP_M = mul(10.0, TOUCH_M);
+const CHORD_ERROR_M = 0.01;
+const WIND_GAP_M = mul(2.1, CHORD_ERROR_M);
+const WIDER = [0.2, 0.5];
+const clear_entry_PASSES = [1, 2];
+const SLACK = 0.5;
+const MOST_CHAINS = 4;
+const MOST_POSES = 1500;
+const MOST_POSES_IN_WIND = 60;
+const HALVINGS = 14;
+const TANGENT_STEPS = 5;
+const clear_entry_LETTERS = new Map(list(iter(items_(CONTROLS))).map((one) => iter(one)).map(([letter, control]) => [float(control), letter]));
 const SCANNED_DIRECTIONS = 720;
 const STEPS_IN_STILL_AIR = tuple(list(iter(range(4, 34))).map((k) => pow(2.0, neg(k))));
 const STEPS_IN_WIND = [pow(2.0, -6), pow(2.0, -9), pow(2.0, -12), pow(2.0, -15)];
 const CLOSING = 8.0;
+const SAME_TIME_S = 0.05;
+const UNKNOWN = -1;
+const CLEAR = 1;
+const BATCH = 48;
+const NO_PIECE_M = 1e-08;
+const NO_LENGTH_M = 1e-100;
+const LONGEST = 1000000.0;
 const JOINS = 48;
 const LINE_STEP = 0.5;
 const MOST_ON_LINE = 24;
 const ARC_STEP_RAD = div(math.pi, 12.0);
+const SIX = list(iter([[1, 0, 1], [-1, 0, -1], [1, 0, -1], [-1, 0, 1], [1, -1, 1], [-1, 1, -1]])).map((one) => iter(one)).map(([u, v, w]) => kernel.set_of(arrays.encode(u, v, w)));
 const PIECE_M = 0.001;
-const NO_LENGTH_M = 1e-100;
-const LONGEST = 1000000.0;
-const WHOLE_TURN = 1e-09;
 const SAME_LENGTH = 1e-09;
 const elongation_HALVINGS = 70;
+const WHOLE_TURN = 1e-09;
 const OUTER_CONTROLS = [[1, 1], [-1, -1], [1, -1], [-1, 1]];
 const BESIDE = 1e-07;
 
