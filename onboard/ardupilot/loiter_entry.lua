@@ -2,7 +2,7 @@
 --
 -- Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
 --
--- SHA-256 of the source: 1070c6d3f8671b68060687868d9500b0869cc671de1e483dbe189b961d53222b
+-- SHA-256 of the source: c92c5ef174ad629c0f5a18c2f383d5394e84abff1adca5812091927f753a2af3
 --
 -- When a switch asks for it, this script flies a plane onto the holding circle around its present target in least
 -- time, and then leaves the circle to ArduPlane: loiter_entry.md. It works by GUIDED_CHANGE_HEADING in GUIDED: the target

@@ -51,6 +51,27 @@ def test_a_wind_that_changes_is_known_after_three_seconds(seed, change_s):
         assert max(outside) < 5.0
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_an_airspeed_that_is_measured_too_low_is_no_wind_once_a_circle_was_flown(seed):
+    """ArduPlane's in warm air is: as a wind it would turn with the aircraft, by 1.7 m/s in half a turn."""
+    random = np.random.default_rng(seed)
+    towards = random.uniform(-pi, pi)
+    velocity, orbit = (12.0 * sin(towards), 12.0 * cos(towards)), Orbit(0.0, 0.0, 250.0, "cw")
+    start = Pose(*random.uniform(-300.0, 300.0, 2), random.uniform(0.0, 360.0))
+    vehicle = PointMass(start, UAV, seed=seed, roll=Roll(0.3, 90.0), gust=0.02, noise=NOISE)
+    law, off, change_s = LoiterEntry(orbit, UAV), [], 60.0
+    for k in range(round((change_s + 30.0) / STEP_S)):
+        now_s = k * STEP_S
+        if now_s >= change_s:
+            vehicle._wind = velocity
+        state = vehicle.measured_state()
+        command = law.step(state._replace(airspeed_m_s=0.96 * state.airspeed_m_s), STEP_S)
+        vehicle.advance(command, STEP_S)
+        if now_s >= change_s + 3.0:
+            off.append(hypot(law.estimates.wind_east_m_s - velocity[0], law.estimates.wind_north_m_s - velocity[1]))
+    assert max(off) < 0.8
+
+
 def changes(differences):
     """The memory after differences, 0.1 s apart, and for each whether the wind has changed."""
     change, found = NO_CHANGE, []

@@ -6,7 +6,7 @@ declared.
 
 from __future__ import annotations
 
-from math import exp, inf
+from math import degrees, exp, inf
 from typing import NamedTuple
 
 from loiter.guidance.estimation.clock import FIRST_CLOCK, Clock, advance, check_stamp
@@ -204,7 +204,7 @@ def update_fits(
         turn_airspeed_m_s=airspeeds.in_turns.value,
         overshoot_deg=overshoot.overshoot_deg,
         turns_unknown=DECLARED_TURN_AIRSPEED_S / airspeeds.in_turns.known_s,
-        heading_bias_deg=wind.heading_bias_deg,
+        heading_bias_deg=degrees(wind.errors.heading),
         bank_bias_deg=slow.bank_bias_deg,
     )
     memory = memory._replace(revision=memory.revision + 1)

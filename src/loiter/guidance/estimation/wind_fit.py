@@ -1,8 +1,8 @@
-"""The steady wind and the heading bias, fitted to measurements, and whether the wind has changed."""
+"""The steady wind and errors of heading and airspeed, fitted to measurements, and whether the wind has changed."""
 
 from __future__ import annotations
 
-from math import degrees, exp, radians, sqrt
+from math import degrees, exp, sqrt
 from typing import NamedTuple
 
 from loiter.guidance.protocol import State
@@ -18,9 +18,10 @@ WIND_MEMORY_S, DECLARED_WIND_S = 60.0, 30.0
 # usual. That is the root mean square difference over the third time, which begins with the second share.
 SWIFT_S, CHANGED_S, USUAL_S, CHANGED_SHARE, USUAL_SHARE, USUAL_MULTIPLE = 0.3, 1.5, 20.0, 0.2, 0.05, 2.5
 
-# The heading bias counts, before it shows, as if it had been measured to be 0 with the first standard deviation,
-# radians, from an air velocity with errors of the second, airspeeds, that are correlated over the third, seconds.
-HEADING_BIAS_SPREAD, AIR_ERROR, AIR_ERROR_S = 0.06, 0.05, 4.0
+# The heading bias, radians, and the share of the airspeed that is not measured count, before they show, as if they had
+# been found to be 0, or what they were when the wind changed, with the first two standard deviations, from an air
+# velocity with errors of the third, airspeeds, that are correlated over the fourth, seconds.
+HEADING_BIAS_SPREAD, AIRSPEED_SPREAD, AIR_ERROR, AIR_ERROR_S = 0.06, 0.04, 0.05, 4.0
 
 
 class WindChange(NamedTuple):
@@ -64,28 +65,44 @@ def add_difference(
     return WindChange(0.0, mean_east, mean_north, 0.0, 0.0, usual_square), True
 
 
+class AirErrors(NamedTuple):
+    """What measured headings exceed the true ones by, radians, and true airspeeds the measured ones, as a share."""
+
+    heading: float
+    airspeed: float
+
+
+NO_ERRORS = AirErrors(0.0, 0.0)
+
+
 class AirMeans(NamedTuple):
-    """The means of the air's velocity, of the airspeed to the right of the heading, and of their products."""
+    """The means of the air's velocity, of the airspeed to the right of the heading, and of their products.
+
+    `right` is the scalar product of both, `along` that with the airspeed along the heading.
+    """
 
     east_m_s: float
     north_m_s: float
     right_east_m_s: float
     right_north_m_s: float
-    product: float
+    right: float
+    along: float
     square: float
 
 
 class WindFit(NamedTuple):
-    """The steady wind and the heading bias: an airspeed along wrong headings looks like a wind that turns with them.
+    """The steady wind and the errors of heading and airspeed, which look like a wind that turns with the aircraft.
 
-    The velocity over the ground less the airspeed along the heading is w - b n, with the wind w, the bias b to the
-    right and n, the airspeed to the right of the heading. Least squares over up to `WIND_MEMORY_S`: while n is constant
-    all of it counts as wind, and the bias is 0. `known_s` is for how long the means are known.
+    The velocity over the ground less the airspeed along the heading is w + a h - b n, with the wind w, the measured
+    airspeed h along the heading and n to its right, the error a of the airspeed and b of the heading. Least squares
+    over up to `WIND_MEMORY_S`: while the heading is constant all of it counts as wind. `known_s` is for how long the
+    means are known, and `expected` the errors that count before they show.
     """
 
     east_m_s: float
     north_m_s: float
-    heading_bias_deg: float
+    errors: AirErrors
+    expected: AirErrors
     known_s: float
     means: AirMeans
     change: WindChange
@@ -93,7 +110,8 @@ class WindFit(NamedTuple):
 
 def first_wind(east_m_s: float, north_m_s: float, known_s: float) -> WindFit:
     """The fit before a measurement."""
-    return WindFit(east_m_s, north_m_s, 0.0, known_s, AirMeans(east_m_s, north_m_s, 0.0, 0.0, 0.0, 0.0), NO_CHANGE)
+    means = AirMeans(east_m_s, north_m_s, 0.0, 0.0, 0.0, 0.0, 0.0)
+    return WindFit(east_m_s, north_m_s, NO_ERRORS, NO_ERRORS, known_s, means, NO_CHANGE)
 
 
 def is_changing(wind: WindFit) -> bool:
@@ -107,25 +125,35 @@ def add_air_velocity(wind: WindFit, state: State, off: float, removed_deg: float
     c, s = heading_vector(state.heading_deg + removed_deg + degrees(off))
     right_east, right_north = V * s, -V * c
     east, north = state.velocity_east_m_s - V * c, state.velocity_north_m_s - V * s
-    wind_east, wind_north, bias_deg, known_s, means, change = wind
+    wind_east, wind_north, errors, expected, known_s, means, change = wind
     if known_s > 0.0:
-        bias = radians(bias_deg)
-        off_east, off_north = east + bias * right_east - wind_east, north + bias * right_north - wind_north
-        change, has_changed = add_difference(change, off_east, off_north, V, dt)
+        true_east, true_north = without_errors(errors, east, north, right_east, right_north)
+        change, has_changed = add_difference(change, true_east - wind_east, true_north - wind_north, V, dt)
         if has_changed:
             means, known_s = shift_means(means, change.mean_east_m_s, change.mean_north_m_s), CHANGED_S
+            expected = errors
         if change.since_s > 0.0:
-            return WindFit(wind_east, wind_north, bias_deg, known_s, means, change)
+            return WindFit(wind_east, wind_north, errors, expected, known_s, means, change)
     known_s = min(known_s + dt, WIND_MEMORY_S)
+    right, along = right_east * east + right_north * north, right_east * north - right_north * east
     means = update_means(
-        means,
-        AirMeans(east, north, right_east, right_north, right_east * east + right_north * north, V * V),
-        min(dt / known_s, 1.0),
+        means, AirMeans(east, north, right_east, right_north, right, along, V * V), min(dt / known_s, 1.0)
     )
-    prior = AIR_ERROR * V / HEADING_BIAS_SPREAD
-    bias = heading_bias(means, prior * prior * AIR_ERROR_S / known_s)
-    wind_east, wind_north = means.east_m_s + bias * means.right_east_m_s, means.north_m_s + bias * means.right_north_m_s
-    return WindFit(wind_east, wind_north, degrees(bias), known_s, means, change)
+    errors = air_errors(means, expected, AIR_ERROR * AIR_ERROR * V * V * AIR_ERROR_S / known_s)
+    wind_east, wind_north = without_errors(
+        errors, means.east_m_s, means.north_m_s, means.right_east_m_s, means.right_north_m_s
+    )
+    return WindFit(wind_east, wind_north, errors, expected, known_s, means, change)
+
+
+def without_errors(
+    errors: AirErrors, east_m_s: float, north_m_s: float, right_east_m_s: float, right_north_m_s: float
+) -> tuple[float, float]:
+    """The velocity of the air without the errors of heading and airspeed; `right` is the airspeed to the right."""
+    return (
+        east_m_s + errors.heading * right_east_m_s + errors.airspeed * right_north_m_s,
+        north_m_s + errors.heading * right_north_m_s - errors.airspeed * right_east_m_s,
+    )
 
 
 def update_means(means: AirMeans, now: AirMeans, share: float) -> AirMeans:
@@ -135,20 +163,28 @@ def update_means(means: AirMeans, now: AirMeans, share: float) -> AirMeans:
         means.north_m_s + share * (now.north_m_s - means.north_m_s),
         means.right_east_m_s + share * (now.right_east_m_s - means.right_east_m_s),
         means.right_north_m_s + share * (now.right_north_m_s - means.right_north_m_s),
-        means.product + share * (now.product - means.product),
+        means.right + share * (now.right - means.right),
+        means.along + share * (now.along - means.along),
         means.square + share * (now.square - means.square),
     )
 
 
-def heading_bias(means: AirMeans, prior: float) -> float:
-    """The heading bias, radians, by least squares; `prior` is how much a bias of 0 weighs, in (m/s)^2."""
-    east, north, right_east, right_north, product, square = means
+def air_errors(means: AirMeans, expected: AirErrors, variance: float) -> AirErrors:
+    """The errors by least squares, where the mean velocity of the air has a variance, (m/s)^2."""
+    east, north, right_east, right_north, right, along, square = means
     spread = square - right_east * right_east - right_north * right_north
-    return -(product - east * right_east - north * right_north) / (spread + prior)
+    of_heading = variance / (HEADING_BIAS_SPREAD * HEADING_BIAS_SPREAD)
+    of_airspeed = variance / (AIRSPEED_SPREAD * AIRSPEED_SPREAD)
+    right, along = right - east * right_east - north * right_north, along - north * right_east + east * right_north
+    return AirErrors(
+        (of_heading * expected.heading - right) / (spread + of_heading),
+        (of_airspeed * expected.airspeed + along) / (spread + of_airspeed),
+    )
 
 
 def shift_means(means: AirMeans, east_m_s: float, north_m_s: float) -> AirMeans:
     """The means as if the wind had always been as it is after a change by this velocity."""
-    east, north, right_east, right_north, product, square = means
-    product += east_m_s * right_east + north_m_s * right_north
-    return AirMeans(east + east_m_s, north + north_m_s, right_east, right_north, product, square)
+    east, north, right_east, right_north, right, along, square = means
+    right += east_m_s * right_east + north_m_s * right_north
+    along += north_m_s * right_east - east_m_s * right_north
+    return AirMeans(east + east_m_s, north + north_m_s, right_east, right_north, right, along, square)

@@ -4,6 +4,9 @@ ArduPlane keeps the last bank for 3 s, and then holds a circle whose radius has 
 fast as g tan(bank)/V. Its guidance (AP_L1_Control::update_loiter) demands the lateral acceleration V^2/r + Kx e on a
 circle of radius r that is e wider than commanded, with Kx = (2 pi/NAVL1_PERIOD)^2. It gets the share k of it, the turn
 ratio, and V^2/r is needed: e = (1 - k)/k V^2/(r Kx). The radius that is sent is smaller by e.
+
+In wind its circle lies outside where the aircraft flies with the wind, farther than inside elsewhere: the middle of
+both is outside by a share of the offset at which Kx e is the acceleration that the circle needs there beyond V^2/r.
 """
 
 from __future__ import annotations
@@ -29,6 +32,9 @@ PERIOD = "NAVL1_PERIOD"
 # not: that much is noise.
 LARGEST_SHARE, COORDINATED = 0.3, 0.18
 
+# That share, as ArduPlane's simulated aeroplane flies circles of 130 to 198 m in 7 m/s of wind.
+DOWNWIND_SHARE = 0.075
+
 # The time, seconds, for which ArduPlane keeps the last bank: it suits the middle of that time.
 KEPT_S = 3.0
 
@@ -48,8 +54,8 @@ def sent_radius_m(
     if scaling is None:
         return radius_m
     period_s = parameters.get(PERIOD, 0.0)
-    if estimates is not None and abs(estimates.turn_ratio - 1.0) > COORDINATED and period_s > 0.0:
-        error_m = _steady_error_m(radius_m, estimates.airspeed_m_s, estimates.turn_ratio, period_s)
+    if estimates is not None and period_s > 0.0:
+        error_m = _acceleration_deficit(radius_m, estimates) * (period_s / (2.0 * pi)) ** 2
         radius_m -= clip(error_m, LARGEST_SHARE * radius_m)
     return scaling.sent_whole_m(radius_m, altitude_m)
 
@@ -94,7 +100,10 @@ def _correction(outside_m: float, inward: float, speed: float) -> float:
     return (gained_m * offset_m - L * T * L * inward) / (gained_m * gained_m + L * T * L * T)
 
 
-def _steady_error_m(radius_m: float, airspeed_m_s: float, turn_ratio: float, period_s: float) -> float:
-    """How much wider than commanded ArduPlane holds a circle that has a radius in fact, metres."""
-    stiffness = (2.0 * pi / period_s) ** 2
-    return (1.0 - turn_ratio) / turn_ratio * airspeed_m_s * airspeed_m_s / (radius_m * stiffness)
+def _acceleration_deficit(radius_m: float, estimates: VehicleEstimates) -> float:
+    """What ArduPlane's demand of lateral acceleration lacks on a circle of a radius, m/s^2: Kx times its offset."""
+    V, k = estimates.airspeed_m_s, estimates.turn_ratio
+    if abs(k - 1.0) > COORDINATED:
+        return (1.0 - k) / k * V * V / radius_m
+    downwind = V + hypot(estimates.wind_east_m_s, estimates.wind_north_m_s)
+    return DOWNWIND_SHARE * (downwind * downwind - V * V) / radius_m
