@@ -593,7 +593,7 @@ def estimates(ratio=1.0, wind=(0.0, 0.0), airspeed=18.0):
     )
 
 
-@pytest.mark.parametrize("ratio", [0.73, 0.8, 1.0, 1.2])
+@pytest.mark.parametrize("ratio", [0.73, 0.8, 1.0])
 def test_the_sent_radius_is_the_one_that_the_guidance_of_arduplane_flies_as_ours(ratio):
     known = {"NAVL1_LIM_BANK": 45.0, "AIRSPEED_CRUISE": 18.0, "NAVL1_PERIOD": 15.0}
     sent = sent_radius_m(CIRCLE, 100.0, known, estimates(ratio))
@@ -605,7 +605,7 @@ def test_the_sent_radius_is_the_one_that_the_guidance_of_arduplane_flies_as_ours
     assert sent_radius_m(CIRCLE, 100.0, {}, estimates(ratio)) == 80.0
 
 
-@pytest.mark.parametrize("ratio", [0.85, 0.97, 1.1])
+@pytest.mark.parametrize("ratio", [0.85, 0.97, 1.1, 1.3])
 def test_a_radius_is_not_corrected_by_the_noise_of_a_turn_ratio(ratio):
     """A yaw damper trims such a slip away while the circle is flown: a correction moved the vehicle inside by 4 m."""
     known = {"NAVL1_LIM_BANK": 45.0, "AIRSPEED_CRUISE": 18.0, "NAVL1_PERIOD": 15.0}

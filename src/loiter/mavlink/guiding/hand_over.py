@@ -28,8 +28,8 @@ from loiter.planning.sides import sign_of
 # ArduPlane's parameter for the period of its guidance, seconds.
 PERIOD = "NAVL1_PERIOD"
 
-# The largest share of the radius by which it is corrected, and the deviation of the turn ratio from 1 below which it is
-# not: that much is noise.
+# The largest share of the radius by which it is corrected, and how far below 1 a turn ratio is noise, as any above 1 is:
+# upwind, where banks are small, an error of a degree is 15 %.
 LARGEST_SHARE, COORDINATED = 0.3, 0.18
 
 # That share, as ArduPlane's simulated aeroplane flies circles of 130 to 198 m in 7 m/s of wind.
@@ -103,7 +103,7 @@ def _correction(outside_m: float, inward: float, speed: float) -> float:
 def _acceleration_deficit(radius_m: float, estimates: VehicleEstimates) -> float:
     """What ArduPlane's demand of lateral acceleration lacks on a circle of a radius, m/s^2: Kx times its offset."""
     V, k = estimates.airspeed_m_s, estimates.turn_ratio
-    if abs(k - 1.0) > COORDINATED:
+    if k < 1.0 - COORDINATED:
         return (1.0 - k) / k * V * V / radius_m
     downwind = V + hypot(estimates.wind_east_m_s, estimates.wind_north_m_s)
     return DOWNWIND_SHARE * (downwind * downwind - V * V) / radius_m
