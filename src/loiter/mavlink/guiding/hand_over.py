@@ -33,7 +33,7 @@ PERIOD = "NAVL1_PERIOD"
 LARGEST_SHARE, COORDINATED = 0.3, 0.18
 
 # That share, as ArduPlane's simulated aeroplane flies circles of 130 to 198 m in 7 m/s of wind.
-DOWNWIND_SHARE = 0.075
+DOWNWIND_SHARE = 0.085
 
 # The time, seconds, for which ArduPlane keeps the last bank: it suits the middle of that time.
 KEPT_S = 3.0
