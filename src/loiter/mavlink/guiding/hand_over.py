@@ -28,8 +28,8 @@ from loiter.planning.sides import sign_of
 # ArduPlane's parameter for the period of its guidance, seconds.
 PERIOD = "NAVL1_PERIOD"
 
-# The largest share of the radius by which it is corrected, and how far below 1 a turn ratio is noise, as any above 1 is:
-# upwind, where banks are small, an error of a degree is 15 %.
+# The largest share of the radius by which it is corrected, and how far below 1 a turn ratio is noise, as any above 1
+# is: upwind, where banks are small, an error of a degree is 15 %.
 LARGEST_SHARE, COORDINATED = 0.3, 0.18
 
 # That share, as ArduPlane's simulated aeroplane flies circles of 130 to 198 m in 7 m/s of wind.
