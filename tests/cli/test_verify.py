@@ -2,11 +2,11 @@
 
 import re
 import sys
-from dataclasses import replace
 
 import pytest
 
 import loiter
+from loiter import Orbit, Pose
 from loiter.cli.app import main
 from loiter.evidence.checks import oracle_check, rolling_check, wind_scan_check
 from loiter.evidence.checks.oracle_check import PLACES
@@ -104,7 +104,21 @@ def test_an_unknown_method_is_refused(capsys):
     assert "--witness" in capsys.readouterr().err
 
 
-def test_what_a_rolling_aircraft_can_reach_is_a_row_for_each_roll_rate(capsys):
+def rolling_bounds(monkeypatch, later_s):
+    """The command gets bounds of one case at each rate, which are this much later than the plan."""
+    scene = Pose(-400.0, 120.0, 90.0), Orbit(0.0, 0.0, 120.0), rolling_check.AIRCRAFT
+
+    def bounds(cases, seed):
+        assert (cases, seed) == (1, 3)
+        for rate in rolling_check.RATES_DEG_S:
+            problem = oracle_check.CheckProblem(f"{rate:g} deg/s", *scene)
+            yield rolling_check.RollingBound(problem, rate, 20.0, 20.0 + later_s, 0.0)
+
+    monkeypatch.setattr(rolling_check, "compare_with_rolling", bounds)
+
+
+def test_what_a_rolling_aircraft_can_reach_is_a_row_for_each_roll_rate(capsys, monkeypatch):
+    rolling_bounds(monkeypatch, 0.5)
     assert main(["verify", "--witness", "rolling", "--cases", "1", "--seed", "3"]) == 0
     first, *rows = [line for line in capsys.readouterr().out.splitlines() if line]
     assert first == "rolling: agrees"
@@ -112,10 +126,8 @@ def test_what_a_rolling_aircraft_can_reach_is_a_row_for_each_roll_rate(capsys):
 
 
 def test_a_path_that_is_sooner_than_the_plan_is_reported(capsys, monkeypatch):
-    bound = next(rolling_check.compare_with_rolling(1, 0))
-    sooner = replace(bound, reached_s=bound.planned_s - 0.01)
-    monkeypatch.setattr(rolling_check, "compare_with_rolling", lambda cases, seed: iter([sooner]))
-    assert main(["verify", "--witness", "rolling"]) == 1
+    rolling_bounds(monkeypatch, -0.01)
+    assert main(["verify", "--witness", "rolling", "--cases", "1", "--seed", "3"]) == 1
     assert capsys.readouterr().out.startswith("rolling: DISAGREES")
 
 

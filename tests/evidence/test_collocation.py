@@ -25,19 +25,13 @@ SMALL = 1e-6
 
 
 def test_both_examples_of_the_paper_and_random_problems_agree():
-    results = list(compare_with_collocation(8, seed=0))
-    assert len(results) == 10
+    results = list(compare_with_collocation(4, seed=0))
+    assert len(results) == 6
     assert [r.problem.place for r in results if not r.passed] == []
     assert max(r.path.error + r.path.gap for r in results) < SMALL
-
-
-@pytest.mark.parametrize(
-    ("problem", "example"), list(zip(examples(), EXAMPLES, strict=True)), ids=["example 1", "example 2"]
-)
-def test_the_examples_are_those_of_the_paper(problem, example):
-    result = collocation_difference(problem)
-    assert result.path.word in example.words
-    assert result.path.time == pytest.approx(example.time, abs=SMALL)
+    for result, example in zip(results, EXAMPLES, strict=False):
+        assert result.path.word in example.words
+        assert result.path.time == pytest.approx(example.time, abs=SMALL)
 
 
 def slower(plans):

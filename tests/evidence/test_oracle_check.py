@@ -16,9 +16,9 @@ from loiter.evidence.checks.oracle_check import (
 )
 
 
-@pytest.mark.parametrize("seed", [1, 2, 3, 4])
-def test_no_difference_beyond_what_the_search_resolves(seed):
-    differences = list(compare_with_oracle(600, seed))
+def test_no_difference_beyond_what_the_search_resolves():
+    """`make verify` compares 100,000."""
+    differences = list(compare_with_oracle(600, 1))
     assert len(differences) == 600
     assert max(d.later for d in differences) <= RESOLUTION
     assert max(d.earlier for d in differences) <= RESOLUTION
