@@ -36,63 +36,42 @@ printf '%s\\n' "${{COMPREPLY[@]}}"
 """
 
 
-@pytest.fixture
-def script(capsys):
-    def printed(shell):
-        assert main(["completion", shell]) == 0
-        return capsys.readouterr().out
-
-    return printed
-
-
-@pytest.fixture
-def tab(script, tmp_path):
-    """What bash offers for a line, in a folder that holds demo.png."""
-    (tmp_path / "demo.png").touch()
-
-    def press(line):
-        words = line.split(" ")
-        typed = " ".join(shlex.quote(word) for word in words)
-        press_tab = PRESS_TAB.format(words=typed, last=len(words) - 1)
-        done = subprocess.run(
-            ["bash", "--norc"], input=script("bash") + press_tab, capture_output=True, text=True, cwd=tmp_path
-        )
-        assert (done.returncode, done.stderr) == (0, "")
-        return sorted(done.stdout.split())
-
-    return press
+# A line, and what may follow it in a folder that holds demo.png.
+OFFERED = {
+    "loiter ": COMMANDS,
+    "loiter pl": ["plan"],
+    "loiter plan --tu": LIMITS,
+    "loiter plan --turn ": ["cw", "ccw", "either"],
+    "loiter plan --turn c": ["cw", "ccw"],
+    "loiter plan --pose -400 120 90 --orbit 0 0 80 --tu": LIMITS,
+    "loiter plan --pose -400 120 90 --turn e": ["either"],
+    "loiter plan --plot de": ["demo.png"],
+    "loiter plan --no-such": [],
+    "loiter verify --s": ["--states", "--seed"],
+    "loiter completion ": ["bash", "zsh", "fish"],
+}
 
 
-@pytest.mark.skipif(shutil.which("bash") is None, reason="needs bash")
-@pytest.mark.parametrize(
-    ("line", "offered"),
-    [
-        ("loiter ", COMMANDS),
-        ("loiter pl", ["plan"]),
-        ("loiter plan --tu", LIMITS),
-        ("loiter plan --turn ", ["cw", "ccw", "either"]),
-        ("loiter plan --turn c", ["cw", "ccw"]),
-        ("loiter plan --pose -400 120 90 --orbit 0 0 80 --tu", LIMITS),
-        ("loiter plan --pose -400 120 90 --turn e", ["either"]),
-        ("loiter plan --plot de", ["demo.png"]),
-        ("loiter plan --no-such", []),
-        ("loiter verify --s", ["--states", "--seed"]),
-        ("loiter completion ", ["bash", "zsh", "fish"]),
-    ],
-)
-def test_bash_offers_what_can_follow(tab, line, offered):
-    assert tab(line) == sorted(offered)
+def tab(line):
+    """The lines of bash that press Tab after a line."""
+    words = line.split(" ")
+    return PRESS_TAB.format(words=" ".join(shlex.quote(word) for word in words), last=len(words) - 1)
 
 
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
-def test_each_script_names_commands_options_and_choices(script, shell):
-    text = script(shell)
-    assert [word for word in [*COMMANDS, "turn-radius", "plot", "either"] if word not in text] == []
-
-
-@pytest.mark.parametrize("shell", [shell for shell in ("bash", "zsh", "fish") if shutil.which(shell)])
-def test_each_script_is_read_by_its_shell(script, shell):
-    subprocess.run([shell, "-n"], input=script(shell), text=True, check=True)
+def test_each_script_names_what_can_follow_and_is_read_by_its_shell(shell, capsys, tmp_path):
+    assert main(["completion", shell]) == 0
+    script = capsys.readouterr().out
+    assert [word for word in [*COMMANDS, "turn-radius", "plot", "either"] if word not in script] == []
+    if shutil.which(shell):
+        subprocess.run([shell, "-n"], input=script, text=True, check=True)
+    if shell == "bash" and shutil.which("bash"):
+        (tmp_path / "demo.png").touch()
+        pressed = script + "echo ';;'\n".join(map(tab, OFFERED))
+        done = subprocess.run(["bash", "--norc"], input=pressed, capture_output=True, text=True, cwd=tmp_path)
+        assert (done.returncode, done.stderr) == (0, "")
+        found = [sorted(words.split()) for words in done.stdout.split(";;")]
+        assert dict(zip(OFFERED, found, strict=True)) == {line: sorted(words) for line, words in OFFERED.items()}
 
 
 @pytest.mark.parametrize("arguments", [["tcsh"], []])

@@ -32,20 +32,14 @@ def test_seven_pictures_and_their_captions(capsys, tmp_path):
     assert err == ""
 
 
-def test_as_svg_the_parts_have_names(tmp_path):
+def test_as_svg_over_older_files_the_parts_have_names(tmp_path):
+    (tmp_path / "fig7.svg").write_text("old")
+    (tmp_path / "mine.txt").write_text("kept")
     assert main(["figures", "--out", str(tmp_path), "--format", "svg"]) == 0
-    assert names(tmp_path) == ["captions.md", *(f"{name}.svg" for name in NAMES)]
+    assert names(tmp_path) == ["captions.md", *(f"{name}.svg" for name in NAMES), "mine.txt"]
     ids = {element.get("id") for element in ElementTree.parse(tmp_path / "fig7.svg").getroot().iter()}
     assert {"piece L", "piece R", "start", "switch", "end", "switching curve"} <= ids
     assert "(fig7.svg)" in (tmp_path / "captions.md").read_text("utf-8")
-
-
-def test_as_pdf_over_older_files(tmp_path):
-    (tmp_path / "fig1.pdf").write_text("old")
-    (tmp_path / "mine.txt").write_text("kept")
-    assert main(["figures", "--out", str(tmp_path), "--format", "pdf"]) == 0
-    assert names(tmp_path) == ["captions.md", *(f"{name}.pdf" for name in NAMES), "mine.txt"]
-    assert (tmp_path / "fig1.pdf").read_bytes().startswith(b"%PDF")
 
 
 @pytest.fixture
