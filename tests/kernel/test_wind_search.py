@@ -175,12 +175,12 @@ def test_next_to_a_tie_the_sooner_direction_is_found(scene, magnitude):
         return least_time(heading(angle), Side.CW) - least_time(heading(angle), Side.CCW)
 
     leads = [(i * pi / 4, lead(i * pi / 4)) for i in range(9)]
-    changes = [(a, b) for (a, before), (b, after) in pairwise(leads) if before * after < 0.0]
+    changes = [(a, b, before) for (a, before), (b, after) in pairwise(leads) if before * after < 0.0]
     assume(changes)
-    low, high = changes[0]
+    low, high, below = changes[0]
     for _ in range(40):
         middle = 0.5 * (low + high)
-        low, high = (middle, high) if lead(low) * lead(middle) > 0.0 else (low, middle)
+        low, high = (middle, high) if below * lead(middle) > 0.0 else (low, middle)
     for angle in (low, low - 10.0**magnitude, low + 10.0**magnitude):
         there = heading(angle)
         least = min(least_time(there, side) for side in (Side.CW, Side.CCW))
