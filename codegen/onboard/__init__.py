@@ -239,6 +239,7 @@ def law_unit() -> tuple[OnboardUnit, dict[str, str]]:
         "RESERVE": unit.literal(law_step.RESERVE),
         "SMOOTHING": unit.literal(law_step.SMOOTHING_S),
         "GAIN": unit.literal(law_step.GAIN),
+        "LONGEST_STEP": f"{law_step.LONGEST_STEP_S:.0f}",
         "COVERED": unit.literal(bank_history.COVERED_S),
     }
 

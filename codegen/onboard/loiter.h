@@ -43,7 +43,7 @@ enum {
 };
 
 /* The longest step, seconds: a command that lasted longer would say nothing, and one of 1e38 s overflows. */
-#define LOITER_LONGEST_STEP_S 3600
+#define LOITER_LONGEST_STEP_S @LONGEST_STEP@
 
 /* The direction in which the circle is flown, seen from above. */
 enum { LOITER_CW = 1, LOITER_CCW = -1, LOITER_EITHER = 0 };

@@ -6,7 +6,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 62a2036028a8c0f179e1d89311b959c3e7eda35ffcca7ac05f5f23bcd6618e4b
+ * SHA-256 of the source: b2c6c8f92c952089a564f5dc117e00833daa653dafa58417d51e6856bdc70cb1
  */
 #ifndef LOITER_ONBOARD_H
 #define LOITER_ONBOARD_H

@@ -305,7 +305,16 @@ def test_a_step_must_be_positive_and_finite(dt):
         mass.advance(command, 0.02)
 
 
-@pytest.mark.parametrize("dt", [1e-300, 1e6, 1e308])
+@pytest.mark.parametrize("dt", [3600.1, 1e6, 1e308])
+def test_a_step_above_an_hour_is_refused(dt):
+    """As in the C for autopilots."""
+    law, mass = LoiterEntry(ORBIT, UAV), PointMass(START, UAV, seed=2)
+    with pytest.raises(InvalidArgument, match=r"^dt is .*: it must be at most 3600 seconds$"):
+        law.step(mass.measured_state(), dt)
+    assert law.step(mass.measured_state(), 0.02) == LoiterEntry(ORBIT, UAV).step(mass.measured_state(), 0.02)
+
+
+@pytest.mark.parametrize("dt", [1e-300, 60.0, 3600.0])
 def test_the_law_continues_after_a_step_of_any_length(dt):
     law, mass = LoiterEntry(ORBIT, UAV), PointMass(START, UAV, seed=2)
     for i in range(40):

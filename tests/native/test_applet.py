@@ -3,6 +3,7 @@
 import re
 import shutil
 import subprocess
+from math import atan, degrees
 from random import Random
 
 import numpy as np
@@ -23,10 +24,12 @@ from native import states
 from native.applet import (
     AIRCRAFT,
     BEGINS,
+    G,
     GUIDED,
     HELD,
     LOITER,
     MOST_INSTRUCTIONS,
+    PERIOD_S,
     ROLL,
     WAITING,
     Applet,
@@ -59,6 +62,19 @@ advance_in_wind = function(search, steps)
     return {stage = 5, left = steps, entry = entry}
 end
 return law
+"""
+
+
+# A law that finds no plan: the table of its functions is a local variable of the applet.
+NO_PLAN = """
+local function find(f, wanted)
+    for i = 1, 60 do
+        local name, value = debug.getupvalue(f, i)
+        local found = name == wanted and value or type(value) == "function" and find(value, wanted)
+        if name == nil or found then return found end
+    end
+end
+return function(update) find(update, "law").conclude = function(memory) return memory end end
 """
 
 
@@ -120,10 +136,24 @@ def test_every_start_settles(flights):
     assert np.median([one.entered_s - least_s(i) for i, one in zip(STARTS, flights, strict=True)]) < 4.0
 
 
-@pytest.mark.parametrize("i", [0, 8])
-def test_the_delay_of_the_bank_is_measured(i):
-    """It is 0.3 s with that of the measurements, 0.2 are declared: with these the entries were 1.3 and 1.1 s late."""
-    assert flown(i).entered_s - least_s(i) < 0.5
+@pytest.mark.parametrize(("i", "most_s"), [(8, 0.5), (46, 1.0), (54, 1.5)])
+def test_the_delay_of_the_bank_is_measured(i, most_s):
+    """It is 0.3 s with that of the measurements, 0.2 are declared: with these the first entry was 1.1 s late.
+
+    The others end with a reversal: 4.2 and 4.3 s late where the first roll, from level wings, was not measured.
+    """
+    assert flown(i).entered_s - least_s(i) < most_s
+
+
+def test_the_bank_of_the_beginning_is_kept_until_there_is_a_plan():
+    """For half a second at most; then the circle is left to ArduPlane, as it is by a plane that has no plan."""
+    world, applet = begun(steps=WAITING + 1)
+    assert [command for command, *_ in world.commands] == [192, 43002]
+    assert degrees(atan(world.commands[-1][2] / G)) < 2.0
+    applet.lua.execute(NO_PLAN)(applet.update)
+    while world.simulator.true_state().time_s < (WAITING + 15) * PERIOD_S:
+        applet.callback()
+    assert [command for command, *_ in world.commands] == [192, *[43002] * 10, 192]
 
 
 @pytest.mark.parametrize("i", [7, 27])
@@ -205,12 +235,12 @@ def test_a_tracked_point_of_joining_becomes_the_fastest():
     assert np.median(late) < 0.01
 
 
-def begun(i=0):
-    """A world and an applet, two seconds into a flight."""
+def begun(i=0, steps=2 * WAITING):
+    """A world and an applet after so many steps, with the switch moved after `WAITING`."""
     _, radius_m, wind = scene(i)
     world = World(point_mass(i), radius_m, wind, AIRCRAFT)
     applet = Applet(world)
-    for step in range(2 * WAITING):
+    for step in range(steps):
         if step == WAITING:
             world.states.add("switch")
         applet.callback()
@@ -230,6 +260,12 @@ def end_data(world):
     world.healthy = False
 
 
+def end_time(world):
+    """A callback that is an hour late: no step of the law is as long as that."""
+    clock = world.milliseconds
+    world.milliseconds = lambda: clock() + 3_600_000
+
+
 ENDS = {
     "pilot or failsafe took over": (end_mode, False),
     "another target was given": (end_target, False),
@@ -237,6 +273,7 @@ ENDS = {
     "fence": (lambda world: world.states.add("fence"), True),
     "failsafe": (lambda world: world.states.add("battery"), True),
     "ended by switch": (lambda world: world.states.discard("switch"), True),
+    "circle not held in time": (end_time, True),
     "not in flight": (lambda world: world.states.discard("armed"), False),
 }
 

@@ -87,6 +87,9 @@ ROLL_RESERVE = 0.8
 # The averaging time of measurements, and their dead time, seconds.
 SMOOTHING_S, DELAY_S = 0.5, 0.1
 
+# The longest step, seconds: a command that lasted longer would say nothing, and one of 1e308 s overflows.
+LONGEST_STEP_S = 3600.0
+
 # The gains of course and crosstrack corrections, to be divided by the response time: the delay of a change of bank plus
 # the averaging time. A faster correction of crosstrack errors would need an intercept angle of several degrees.
 GAIN, PLACE_GAIN = 4.0, 0.25

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from loiter.errors import instance, not_negative, positive
+from loiter.errors import InvalidArgument, instance, not_negative, positive
 from loiter.guidance.entry import law_step
 from loiter.guidance.entry.law_step import (
     DELAY_S,
     GAIN,
     HOLD,
+    LONGEST_STEP_S,
     NEGLIGIBLE_WIND,
     NO_DATA,
     RESERVE,
@@ -143,9 +144,11 @@ class LoiterEntry:
     def step(self, state: State, dt: float) -> Command:
         """The command for the next `dt` seconds, from a measured state.
 
-        Raises `InvalidArgument` where `dt` is not positive and finite; the law is then unchanged.
+        Raises `InvalidArgument` where `dt` is not above 0 and at most 3600; the law is then unchanged.
         """
         dt = positive("dt", dt, "seconds")
+        if dt > LONGEST_STEP_S:
+            raise InvalidArgument("dt", f"is {dt:g}: it must be at most {LONGEST_STEP_S:g} seconds")
         instance("state", state, State)
         self._vehicle = self._vehicle_at(state)
         self._memory = self._advance(state, dt)
