@@ -2,7 +2,7 @@
 --
 -- Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
 --
--- SHA-256 of the source: 37f554f96fabe2a8b065e59ca69229448bc6106ba2d7921af5921c6dfff8cbfd
+-- SHA-256 of the source: c024a3c0b942b15ade57089562a9e9365a0a9dbc08434935372691b819b1de08
 --
 -- When a switch asks for it, this script flies a plane onto the holding circle around its present target in least
 -- time, and then leaves the circle to ArduPlane: loiter_entry.md. It works by GUIDED_CHANGE_HEADING in GUIDED: the target

@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: bf31d3f5faf8e91f0c64a3e601df166f279d64a2d33d891040c2ea9c2909cbfa
+ * SHA-256 of the source: 43210bbf6f1bddf8a4df497f56c2de9e13e04703590a7f1d041f53abc5151282
  */
 #ifndef LOITER_IDENTIFICATION_H
 #define LOITER_IDENTIFICATION_H
