@@ -24,7 +24,6 @@ from native import states
 from native.applet import (
     AIRCRAFT,
     BEGINS,
-    G,
     GUIDED,
     HELD,
     LOITER,
@@ -33,6 +32,7 @@ from native.applet import (
     ROLL,
     WAITING,
     Applet,
+    G,
     World,
     bindings,
     flown,
