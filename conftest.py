@@ -5,6 +5,7 @@ import os
 import shlex
 from collections.abc import Iterator
 from contextlib import chdir, redirect_stdout
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -38,16 +39,10 @@ SLOW = {
     "web": "api drawing failure fields history kernel layout limits load missions page places schema serve tiles touch",
 }
 
-# Files of tests that first build the package, the site or a library, or check all types: by one worker, not by each.
-BUILDING = (
-    "documents/test_package.py",
-    "documents/test_site.py",
-    "guidance/test_biased.py",
-    "guidance/test_flights_in_c.py",
-    "guidance/test_law_in_c.py",
-    "guidance/test_law_in_javascript.py",
-    "tests/test_types.py",
-)
+# Tests that share a library which a helper of theirs compiles once in each process.
+FLIGHTS_IN_C = ("guidance/test_biased.py", "guidance/test_flights_in_c.py", "guidance/test_identification.py")
+ONBOARD = ("native/test_onboard.py", "native/test_onboard_identification.py")
+SLOTS_IN_C = ("guidance/test_slot_entry.py",)
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -84,18 +79,27 @@ def run_console(example: Example) -> str | None:
 
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
-    """Distribute tests to workers one by one.
+    """Distribute tests to workers one by one, but those that share something to one worker, which builds it once.
 
-    A document's examples, which depend on each other, and tests of something that is long in building stay together.
+    These are a document's examples, files of tests with a fixture of their module or a cache, and those of a library
+    in C.
     """
     from xdist.scheduler import LoadScopeScheduling
 
-    class ByDocument(LoadScopeScheduling):
+    @cache
+    def is_whole(path: str) -> bool:
+        text = "" if path.endswith(".md") else (config.rootpath / path).read_text("utf-8")
+        return path.endswith(".md") or 'scope="module"' in text or "from functools import cache\n" in text
+
+    class ByWhatIsShared(LoadScopeScheduling):
         def _split_scope(self, nodeid: str) -> str:
             path, _, _ = nodeid.partition("::")
-            return path if path.endswith((".md", *BUILDING)) else nodeid
+            for group in (FLIGHTS_IN_C, ONBOARD, SLOTS_IN_C):
+                if path.endswith(group):
+                    return group[0]
+            return path if is_whole(path) else nodeid
 
-    return ByDocument(config, log)
+    return ByWhatIsShared(config, log)
 
 
 @pytest.fixture(scope="module")
