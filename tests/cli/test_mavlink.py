@@ -32,7 +32,7 @@ def test_a_scene_is_planned_and_sent(shown, vehicle, held):
     with flying(vehicle):
         text = shown(f"upload --connect {vehicle.connection} {PLACED} --turn ccw")
     sent = [kept for kept in vehicle.mission if kept[0] == 17]
-    assert sent[0][2][2] == held
+    assert sent[0].radius_m == held
     assert "LSR, counter-clockwise: joins in" in text
     assert "items sent and read back, each as sent." in text
     assert "It replaced a mission of" in text
@@ -97,7 +97,7 @@ def test_what_the_autopilot_makes_of_the_mission_is_reported(shown):
     )
     with flying(Widens([])) as vehicle:
         text = shown(f"upload --connect {vehicle.connection} {PLACED} --turn cw --true-radius")
-    assert vehicle.mission[-1][2][2] == 110.0
+    assert vehicle.mission[-1].radius_m == 110.0
     said = "The radius is sent as 110 m, which ArduPlane flies as 120.0 m at 900 m."
     assert text.splitlines()[-1] == said
 
@@ -129,7 +129,7 @@ def test_a_file_is_sent_as_it_is(shown, tmp_path, ending):
         text = shown(f"upload {path} --connect {vehicle.connection}")
     wanted = loiter.io.read_mission(path)
     assert [(kept[0], kept[2]) for kept in vehicle.mission] == [(item.command, item.params) for item in wanted.items]
-    assert vehicle.mission[-1][2][2] == 120.0
+    assert vehicle.mission[-1].radius_m == 120.0
     assert "It had none before." in text
 
 

@@ -214,26 +214,33 @@ def test_the_connection_is_closed(kind):
 # What is not a fitting vehicle.
 
 
+UNFIT = [
+    ({"vehicle_type": 2}, "cannot be guided: it is no fixed wing, but a quadrotor"),
+    ({"vehicle_type": 12}, "cannot be guided: it is no fixed wing, but a submarine"),
+    ({"vehicle_type": 22}, "cannot be guided: it does not fly as a fixed wing now"),
+    ({"armed": False}, "cannot be guided: it is not armed"),
+    ({"landed_state": 1}, "cannot be guided: it is on the ground"),
+    ({"landed_state": 3}, "cannot be guided: it is taking off"),
+    ({"landed_state": 4}, "cannot be guided: it is landing"),
+    ({"landed_state": 0}, "cannot be guided: it does not know whether it is in the air"),
+    ({"system_status": 5}, "cannot be guided: it is in a failsafe"),
+    ({"autopilot": 0}, "its autopilot is neither ArduPilot nor PX4"),
+    ({"muted_kinds": {245}}, r"does not report whether it is in the air (EXTENDED_SYS_STATE)"),
+    ({"muted_kinds": {33}}, "sends no position and attitude"),
+    ({"muted_kinds": {30}}, "sends no position and attitude"),
+    ({"parameters": {}}, "does not report its parameter"),
+]
+
+
+# Each with one autopilot; the parameters are those of each.
 @pytest.mark.parametrize(
-    ("changes", "words"),
+    ("kind", "changes", "words"),
     [
-        ({"vehicle_type": 2}, "cannot be guided: it is no fixed wing, but a quadrotor"),
-        ({"vehicle_type": 12}, "cannot be guided: it is no fixed wing, but a submarine"),
-        ({"vehicle_type": 22}, "cannot be guided: it does not fly as a fixed wing now"),
-        ({"armed": False}, "cannot be guided: it is not armed"),
-        ({"landed_state": 1}, "cannot be guided: it is on the ground"),
-        ({"landed_state": 3}, "cannot be guided: it is taking off"),
-        ({"landed_state": 4}, "cannot be guided: it is landing"),
-        ({"landed_state": 0}, "cannot be guided: it does not know whether it is in the air"),
-        ({"system_status": 5}, "cannot be guided: it is in a failsafe"),
-        ({"autopilot": 0}, "its autopilot is neither ArduPilot nor PX4"),
-        ({"muted_kinds": {245}}, r"does not report whether it is in the air (EXTENDED_SYS_STATE)"),
-        ({"muted_kinds": {33}}, "sends no position and attitude"),
-        ({"muted_kinds": {30}}, "sends no position and attitude"),
-        ({"parameters": {}}, "does not report its parameter"),
+        (kind, *unfit)
+        for i, unfit in enumerate(UNFIT)
+        for kind in (KINDS if "parameters" in unfit[0] else [KINDS[i % 2]])
     ],
 )
-@pytest.mark.parametrize("kind", KINDS)
 def test_a_vehicle_that_must_not_be_guided(kind, changes, words):
     vehicle = kind()
     for name, value in changes.items():

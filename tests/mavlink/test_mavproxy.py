@@ -122,8 +122,8 @@ def test_a_plan_is_printed_and_drawn_and_sent_as_a_mission(flown):
     assert plane.commands == [command for command in plane.commands if command.command in (511, 512)]
     console.type("loiter upload 47 8 80")
     console.wait(r"The vehicle has the mission: \d items sent and read back")
-    assert plane.mission[-1][0] == 17
-    assert abs(plane.mission[-1][2][2]) == 80.0
+    assert plane.mission[-1].command == 17
+    assert abs(plane.mission[-1].radius_m) == 80.0
 
 
 def test_wrong_commands_get_a_sentence_and_a_watch_goes_on_until_it_is_stopped(flown):

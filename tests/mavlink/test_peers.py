@@ -34,7 +34,7 @@ def test_mavsdk_has_every_item_and_gives_it_back(peer, turn, real_time):
     summary = upload(new, peer.connection, system=1)
     arrived = peer.mission()
     assert arrived == kept(new)
-    assert arrived[-1][2][2] == (80.0 if turn == "cw" else -80.0)
+    assert kept(new)[-1].radius_m == (80.0 if turn == "cw" else -80.0)
     assert summary.cut == ()
     back = download(peer.connection, system=1)
     assert kept(Mission(back.items, new.home)) == kept(new)

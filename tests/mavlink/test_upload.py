@@ -44,7 +44,7 @@ def test_a_mission_arrives_as_it_was_sent(kind, turn):
         back = download(vehicle.connection, system=1)
     home = [Plane.home] if kind is Plane else []
     assert vehicle.mission == home + kept(new)
-    assert vehicle.mission[-1][2][2] == (80.0 if turn == "cw" else -80.0)
+    assert vehicle.mission[-1].radius_m == (80.0 if turn == "cw" else -80.0)
     assert [i._replace(autocontinue=True) for i in back.items] == [
         i._replace(latitude_deg=round(i.latitude_deg, 7), longitude_deg=round(i.longitude_deg, 7)) for i in new.items
     ]
@@ -677,7 +677,7 @@ def test_the_true_radius_is_sent_as_the_one_with_which_it_is_flown(radius, sent)
     new = circling(params=(0.0, 0.0, radius, 0.0))
     with flying(Widens()) as vehicle:
         summary = upload(new, vehicle.connection, system=1, true_radius=True)
-    assert vehicle.mission[-1][2][2] == sent
+    assert vehicle.mission[-1].radius_m == sent
     assert summary.cut == ()
     flown = abs(sent) * EAS2TAS_SQUARED
     told = f"The radius is sent as {abs(sent):g} m, which ArduPlane flies as {flown:.1f} m at 684 m."
@@ -688,7 +688,7 @@ def test_the_true_radius_is_that_of_the_mission_where_nothing_is_widened():
     for kind in (Vehicle, Plane):
         with flying(kind()) as vehicle:
             upload(circling(), vehicle.connection, system=1, true_radius=True)
-        assert vehicle.mission[-1][2][2] == -80.0
+        assert vehicle.mission[-1].radius_m == -80.0
 
 
 def test_the_true_radius_needs_to_be_known():

@@ -12,6 +12,7 @@ import threading
 import time
 from collections import Counter
 from contextlib import contextmanager
+from typing import NamedTuple
 
 import pytest
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
@@ -26,9 +27,25 @@ from loiter.mavlink.missions.exchange import replace_mission
 ACCEPTED, ERROR, INVALID_SEQUENCE, DENIED, CANCELLED = 0, 1, 13, 14, 15
 
 
-def item(command=16, frame=0, params=(0.0, 0.0, 0.0, 0.0), x=470000000, y=80000000, z=500.0, autocontinue=1):
+class Item(NamedTuple):
     """An item as a vehicle keeps it."""
-    return command, frame, params, x, y, z, autocontinue
+
+    command: int
+    frame: int
+    params: tuple
+    x: int
+    y: int
+    z: float
+    autocontinue: int
+
+    @property
+    def radius_m(self):
+        """Of a loiter, positive clockwise."""
+        return self.params[2]
+
+
+def item(command=16, frame=0, params=(0.0, 0.0, 0.0, 0.0), x=470000000, y=80000000, z=500.0, autocontinue=1):
+    return Item(command, frame, params, x, y, z, autocontinue)
 
 
 # The seconds that the library waits for this and that.
