@@ -11,7 +11,7 @@ import loiter
 from benchmarks import peers, plain
 from benchmarks.timing import Row, least_times
 from loiter import Aircraft, Orbit, Pose
-from loiter.compiled import ufuncs, wind_solver
+from loiter.compiled import solver, ufuncs
 from loiter.evidence.checks import wind_scan_check
 from loiter.kernel.wind import wind_search
 from loiter.kernel.wind.wind_search import WindProblem
@@ -106,7 +106,7 @@ def single_scenes(windiest: float, count: int) -> list[float]:
     for _ in range(7):
         for i, problem in enumerate(problems):
             begin = perf_counter()
-            wind_solver.fastest(problem)
+            solver.fastest(problem)
             least[i] = min(least[i], perf_counter() - begin)
     return least
 

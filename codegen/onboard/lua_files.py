@@ -9,7 +9,7 @@ from typing import Any
 from codegen.arithmetic import Arithmetic
 from codegen.lua import LUA_32BITS, Chunk, note
 from codegen.unit import ROOT, digest
-from loiter.compiled import wind_solver
+from loiter.compiled import solver
 from loiter.guidance.entry import entry_planner, join_tracking, law_step
 from loiter.guidance.estimation import bank_history, identification_step, turn_fits
 from loiter.guidance.estimation.vehicle import fly_as_declared
@@ -43,7 +43,7 @@ ROOTS: tuple[Any, ...] = (
 # The functions that the applet has by hand, with these names: they search in wind by `join_tracking`.
 BY_HAND: dict[Any, str] = {
     wind_search.begin_search: "begin_in_wind",
-    wind_solver.advance: "advance_in_wind",
+    solver.advance: "advance_in_wind",
 }
 
 # The kernel's function stands in for machine code that Python calls.

@@ -6,7 +6,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: b2c6c8f92c952089a564f5dc117e00833daa653dafa58417d51e6856bdc70cb1
+ * SHA-256 of the source: 0dc7073bb0882de5df1536c622719eb32daec7cf01de48bb30a732dbb32d054a
  */
 #ifndef LOITER_ONBOARD_H
 #define LOITER_ONBOARD_H

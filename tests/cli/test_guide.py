@@ -11,7 +11,7 @@ from types import SimpleNamespace
 import pytest
 
 from loiter.cli.app import main
-from loiter.cli.commands.guide import line
+from loiter.cli.vehicles import line
 from loiter.guidance.protocol import Phase, State
 from loiter.guidance.vehicle.rolling import Roll
 from loiter.io.flight_log import LogRow

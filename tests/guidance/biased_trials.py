@@ -18,8 +18,7 @@ from loiter.guidance.trials.campaign import random_trials
 from loiter.guidance.trials.varied import VariedTrial
 from loiter.guidance.vehicle.rolling import Roll
 from loiter.kernel.wind.hold import tightest_radius
-from loiter.planning.feasibility import relative_wind
-from loiter.planning.model import Aircraft, Orbit, Pose, Wind
+from loiter.planning.model import Aircraft, Orbit, Pose, Wind, relative_wind
 from loiter.planning.solve import plan
 
 if TYPE_CHECKING:

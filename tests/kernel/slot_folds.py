@@ -22,7 +22,7 @@ import numpy as np
 from scipy.optimize import fsolve
 
 from kernel.slots import REACHED, Scenes, closest_between, least_times, random_scenes
-from loiter.compiled.wind_solver import first_in_slot
+from loiter.compiled.solver import first_in_slot
 from loiter.kernel.angles import angle, arc_rotation
 from loiter.kernel.wind import slots
 from loiter.kernel.wind.hold import hold_pose

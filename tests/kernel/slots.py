@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from loiter.compiled.wind_solver import first_in_slot
+from loiter.compiled.solver import first_in_slot
 from loiter.kernel.wind.hold import phase_of
 from loiter.kernel.wind.wind_search import WindProblem
 from loiter.verify.slot_check import CLOSING, distance, ground_speed, hold_time

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from kernel.slots import REACHED, closest_between, flown_miss, fold_scenes, least_times, planned, random_scenes
-from loiter.compiled import wind_solver
+from loiter.compiled import solver
 from loiter.kernel.angles import angle, arc_rotation
 from loiter.kernel.statuses import Status
 from loiter.kernel.wind import slots, wind_search
@@ -108,27 +108,27 @@ def first_sampled(u, halves, slot, scene, n=400):
 @settings(max_examples=20, deadline=None)
 @given(problems())
 def test_machine_code_answers_as_python_does(scene):
-    assert wind_solver.first_in_slot(*scene) == slots.first_in_slot(*scene)
+    assert solver.first_in_slot(*scene) == slots.first_in_slot(*scene)
 
 
 @given(problems())
 def test_no_slot_is_reached_before_the_circle(scene):
     problem, phase = scene
-    slot = time_of(wind_solver.first_in_slot(problem, phase))
-    assert slot >= time_of(wind_solver.fastest(problem)) - 1e-9 * (1.0 + slot)
+    slot = time_of(solver.first_in_slot(problem, phase))
+    assert slot >= time_of(solver.fastest(problem)) - 1e-9 * (1.0 + slot)
 
 
 @given(problems())
 def test_the_slot_in_which_the_fastest_entry_joins_is_reached_then(scene):
     problem, _ = scene
-    fastest = wind_solver.fastest(problem)
+    fastest = solver.fastest(problem)
     R, wx, wy, T = problem.R, problem.wx, problem.wy, time_of(fastest)
     last = phase_of(cos(fastest.azimuth), sin(fastest.azimuth), problem.side, wx, wy)
     least, most = 0.0, 2.0 * T / R + 1.0
     for _ in range(60):
         middle = 0.5 * (least + most)
         least, most = (middle, most) if time_held(last, middle, R, wx, wy) < T else (least, middle)
-    found = wind_solver.first_in_slot(problem, last - most)
+    found = solver.first_in_slot(problem, last - most)
     # A last arc that vanishes makes a triple root, known to the cube root of rounding.
     assert time_of(found) == pytest.approx(T, abs=1e-4)
 
@@ -136,21 +136,21 @@ def test_the_slot_in_which_the_fastest_entry_joins_is_reached_then(scene):
 @given(problems())
 def test_a_mirrored_scene_has_the_same_time(scene):
     p, phase = scene
-    time = time_of(wind_solver.first_in_slot(p, phase))
+    time = time_of(solver.first_in_slot(p, phase))
     px, py, *_ = hold_pose(phase, p.side, p.R, p.wx, p.wy)
     mirrored = p._replace(y=-p.y, s=-p.s, side=-p.side, wy=-p.wy)
-    other = wind_solver.first_in_slot(mirrored, phase_of(px, -py, -p.side, p.wx, -p.wy))
+    other = solver.first_in_slot(mirrored, phase_of(px, -py, -p.side, p.wx, -p.wy))
     assert time_of(other) == pytest.approx(time, abs=1e-7) or is_beside_jump(p, phase)
 
 
 @given(problems(), angles)
 def test_a_turned_scene_has_the_same_time(scene, by):
     p, phase = scene
-    time = time_of(wind_solver.first_in_slot(p, phase))
+    time = time_of(solver.first_in_slot(p, phase))
     px, py, *_ = hold_pose(phase, p.side, p.R, p.wx, p.wy)
     (x, y), (c, s), (wx, wy), (px, py) = (turn(a, b, by) for a, b in ((p.x, p.y), (p.c, p.s), (p.wx, p.wy), (px, py)))
     turned = p._replace(x=x, y=y, c=c, s=s, wx=wx, wy=wy)
-    other = wind_solver.first_in_slot(turned, phase_of(px, py, p.side, wx, wy))
+    other = solver.first_in_slot(turned, phase_of(px, py, p.side, wx, wy))
     assert time_of(other) == pytest.approx(time, abs=1e-7) or is_beside_jump(p, phase)
 
 
@@ -160,15 +160,15 @@ def turn(x, y, by):
 
 def is_beside_jump(problem, phase):
     """Whether the time changes much where the slot is displaced by rounding only."""
-    times = [time_of(wind_solver.first_in_slot(problem, phase + shift)) for shift in (-1e-9, 0.0, 1e-9)]
+    times = [time_of(solver.first_in_slot(problem, phase + shift)) for shift in (-1e-9, 0.0, 1e-9)]
     return max(times) - min(times) > 1e-6
 
 
 @given(problems(still=True))
 def test_a_wind_that_vanishes_gives_the_time_of_still_air(scene):
     p, phase = scene
-    time = time_of(wind_solver.first_in_slot(p, phase))
-    light = time_of(wind_solver.first_in_slot(p._replace(wx=1e-12), phase))
+    time = time_of(solver.first_in_slot(p, phase))
+    light = time_of(solver.first_in_slot(p._replace(wx=1e-12), phase))
     assert light == pytest.approx(time, abs=1e-6) or is_beside_jump(p, phase)
 
 
@@ -176,16 +176,16 @@ def test_a_wind_that_vanishes_gives_the_time_of_still_air(scene):
 def test_who_is_in_the_slot_flies_nothing(scene):
     p, phase = scene
     x, y, c, s, _ = hold_pose(phase, p.side, p.R, p.wx, p.wy)
-    found = wind_solver.first_in_slot(p._replace(x=x, y=y, c=c, s=s), phase)
+    found = solver.first_in_slot(p._replace(x=x, y=y, c=c, s=s), phase)
     assert (found.status, found.word, time_of(found)) == (Status.OK, 0, 0.0)
 
 
 def test_a_slot_just_behind_the_start_needs_a_long_way_round():
-    found = wind_solver.first_in_slot(WindProblem(2.0, 0.0, 0.0, 1.0, 2.0, -1, 0.0, 0.0, 0.0), -1.0 - pi / 2.0)
+    found = solver.first_in_slot(WindProblem(2.0, 0.0, 0.0, 1.0, 2.0, -1, 0.0, 0.0, 0.0), -1.0 - pi / 2.0)
     assert found.status == Status.OK
     assert controls(found.word)[1] != 0
     assert time_of(found) > 3.0
 
 
 def test_what_cannot_be_held_has_a_status():
-    assert wind_solver.first_in_slot(WindProblem(2.0, 0.0, 0.0, 1.0, 0.5, -1, 0.0, 0.0, 0.0), 0.0).status != Status.OK
+    assert solver.first_in_slot(WindProblem(2.0, 0.0, 0.0, 1.0, 0.5, -1, 0.0, 0.0, 0.0), 0.0).status != Status.OK

@@ -12,7 +12,7 @@ from codegen.javascript import PORTABLE, Module
 from codegen.kinds import NotTranslated
 from codegen.unit import ROOT, Unit
 
-from loiter.compiled.still_air_solver import single
+from loiter.compiled.solver import single
 from native import same_names, untranslatable
 
 

@@ -430,7 +430,7 @@ def test_a_scene_beyond_doubles_and_a_bad_tolerance_are_refused():
 
 @pytest.mark.parametrize("solve", [plan, plan_all, candidates])
 def test_a_search_that_ends_beside_the_circle_is_no_answer(monkeypatch, solve):
-    monkeypatch.setattr("loiter.compiled.wind_solver.single", None)
+    monkeypatch.setattr("loiter.compiled.solver.single", None)
     monkeypatch.setattr("loiter.kernel.wind.wind_search.end_miss", lambda *_: nan)
     with pytest.raises(NotConverged, match=f"^{Status.NOT_CONVERGED.message}: pose -400 120 90, wind 8 m/s from 250"):
         solve(POSE, ORBIT, UAV, WIND)

@@ -22,7 +22,6 @@ import numpy as np
 from kernel.worst import drawn as worst_drawn
 from kernel.worst import states as worst_states
 from loiter import Aircraft, Maneuver, Orbit, Pose, Turn, Wind, candidates, plan
-from loiter.compiled import wind_solver
 from loiter.kernel.entry import WIND_TIE_TOLERANCE, Entry
 from loiter.kernel.rounding import rounding
 from loiter.kernel.words import Word
@@ -328,7 +327,6 @@ def main() -> None:
     parser.add_argument("--generations", type=int, default=40, help="worst: each has --count scenes")
     parser.add_argument("--residual", default="", help="worst: of this condition alone")
     given = parser.parse_args()
-    wind_solver.prepare()
     if given.part == "worst":
         print(worst(given.seed, given.generations, given.count, given.residual))
         return

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from loiter.arrays.reduction import heading_vectors
-from loiter.compiled import wind_solver
+from loiter.compiled import solver
 from loiter.errors import OutOfRange
 from loiter.kernel import motion
 from loiter.kernel.rebinding import Function, rebound
@@ -19,8 +19,15 @@ from loiter.kernel.statuses import Status
 from loiter.kernel.wind.wind_search import WindEntry, WindProblem, no_entry, status_of, time_of
 from loiter.kernel.words import Side, Word
 from loiter.planning.compass import heading_after
-from loiter.planning.feasibility import RelativeWind, relative_velocity
-from loiter.planning.model import CONTROLS, position_after, radius_at_bank, radius_at_rate, wind_velocity
+from loiter.planning.model import (
+    CONTROLS,
+    RelativeWind,
+    position_after,
+    radius_at_bank,
+    radius_at_rate,
+    relative_velocity,
+    wind_velocity,
+)
 from loiter.planning.sides import TURNS, directions, sign_of
 from loiter.planning.slot import Slot, phase_at_start
 
@@ -195,7 +202,7 @@ def _first_in_slot(given: WindProblem, phase_deg: float, at_s: float, unit_s: fl
     for turn in directions(TURNS[Side(given.side)]):
         held = given._replace(side=sign_of(turn))
         try:
-            found.append(wind_solver.first_in_slot(held, phase_at_start(Slot(phase_deg, at_s), held, unit_s)))
+            found.append(solver.first_in_slot(held, phase_at_start(Slot(phase_deg, at_s), held, unit_s)))
         except OutOfRange:
             return no_entry(Status.BAD_SLOT)
     failed = [entry for entry in found if entry.status != Status.OK]
@@ -230,7 +237,7 @@ def _windy(s: States) -> NDArray[np.intp]:
 
 
 def _relative_wind(s: States) -> RelativeWind:
-    """`feasibility.relative_wind` of each row."""
+    """`relative_wind` of each row."""
     velocity = rebound(wind_velocity, {"heading_vector": heading_vectors()})
     air, circle = velocity(s.wind_speed_m_s, s.wind_from_deg), (s.orbit_velocity_east_m_s, s.orbit_velocity_north_m_s)
     return RelativeWind(*rebound(relative_velocity, {"hypot": np.hypot})(air, circle, s.airspeed_m_s))

@@ -46,7 +46,6 @@ def read_options(
     aircraft: AircraftOptions,
     wind: WindOptions,
     *,
-    tolerance_m: float = 0.0,
     fit: bool = False,
     datum: AltitudeDatum = MEAN_SEA_LEVEL,
 ) -> OptionsRead:
@@ -59,7 +58,7 @@ def read_options(
     pose, circle, frame = place_scene(start, orbit, wind, preset)
     uav = aircraft.aircraft(preset)
     planned = circle.fitted(uav, wind.moving_air) if fit else circle
-    problem = Problem(pose, planned, uav, wind.moving_air, tolerance_m)
+    problem = Problem(pose, planned, uav, wind.moving_air)
     remarks = [
         orbit.site_remark(),
         _places_remark(start, frame),

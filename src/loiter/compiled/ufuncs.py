@@ -1,12 +1,11 @@
 """The kernel's functions as NumPy ufuncs: those of the extension module `loops`, or plain Python where it is missing.
 
-`min_time(x, y, R, side, tolerance)` and `control(...)` return one array, `reduce(x, y, c, s)` two. `gradient(x, y, R,
-side)` three: dT/dx, dT/dy and dT/dR. `solve(x, y, R, side, tolerance, three)` returns time, word, durations (..., 3),
-status, side and miss; `three` is any array of length 3, which NumPy needs to know the number of durations.
-`min_time_in_wind(x, y, c, s, R, side, wx, wy, tolerance)` takes the numbers of a `WindProblem`, returns one array;
-`solve_in_wind(..., three)` returns time, word, durations (..., 3), status, side, azimuth and miss. Words, statuses and
-sides are the int8 codes of `words` and `statuses`. The ufuncs broadcast, take `out=`, release the interpreter's lock,
-and allocate nothing beyond the results.
+`min_time` and `control` take the arguments of `synthesis.optimum` and return one array, `reduce(x, y, c, s)` two.
+`gradient(x, y, R, side)` returns three: dT/dx, dT/dy and dT/dR. `solve(..., three)` returns time, word, durations
+(..., 3), status, side and miss; `three` is any array of length 3, which NumPy needs to know the number of durations.
+`min_time_in_wind` takes the numbers of a `WindProblem` and returns one array; `solve_in_wind(..., three)` returns time,
+word, durations (..., 3), status, side, azimuth and miss. Words, statuses and sides are the int8 codes of `words` and
+`statuses`. The ufuncs broadcast, take `out=`, release the interpreter's lock, and allocate nothing beyond the results.
 """
 
 from typing import Any

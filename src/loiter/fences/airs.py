@@ -10,7 +10,7 @@ from math import cos, inf, sin, tau
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from loiter.arrays import min_time, min_time_in_wind
-from loiter.compiled import wind_solver
+from loiter.compiled import solver
 from loiter.fences.contacts import Contacts, Curve
 from loiter.fences.distances import Arcs, arc_to_edge, arc_to_point, chord_to_edge, chord_to_point
 from loiter.fences.fence import Fence
@@ -244,7 +244,7 @@ class SteadyWind:
         place = (start.x - orbit.east_m) / r, (start.y - orbit.north_m) / r
         heading = cos(start.heading), sin(start.heading)
         problem = WindProblem(*place, *heading, self._problem.radius, SIDES[orbit.turn], self._wx, self._wy, 0.0)
-        return [wind_search.entry_of(found) for found in wind_solver.ranked(problem) if found.status == Status.OK]
+        return [wind_search.entry_of(found) for found in solver.ranked(problem) if found.status == Status.OK]
 
     def are_clear(self, start: Pose2, words: Words) -> NDArray[bool_]:
         """By chords of trochoids, each no farther than `CHORD_ERROR_M` from its part."""

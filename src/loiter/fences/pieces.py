@@ -13,11 +13,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from loiter.kernel.wind.held import time_held
 from loiter.kernel.wind.hold import phase_of
 from loiter.planning.compass import heading_vector
-from loiter.planning.feasibility import radius_in_turns, relative_wind
 from loiter.planning.flight import radius_of
 from loiter.planning.leg import LegPlan
 from loiter.planning.maneuver import Maneuver
-from loiter.planning.model import CONTROLS, Orbit, Segment
+from loiter.planning.model import CONTROLS, Orbit, Segment, radius_in_turns, relative_wind
 from loiter.planning.sides import sign_of
 
 if TYPE_CHECKING:

@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: d8a44d5def8efbe5da7efe19691a3b26e17e0674e1010ad23699dfdf367ad98a
+ * SHA-256 of the source: f9998cafb50316b257cbddcf63bc69055c9274174423007feab96efa98e50abd
  */
 #ifndef LOITER_KERNEL_H
 #define LOITER_KERNEL_H
@@ -3462,7 +3462,7 @@ static inline real step_without_zero(real value, real slope, real bend) {
 
 /* A step within which the excess falls by at most half a turn, and LSR and RSL neither begin nor cease to exist. */
 static inline real step_of_excess(integer u, integer last, Excess excess, Bounds limits, WindScene scene, real
-        tolerance) {
+        length_tolerance) {
     real step = limits.step;
     if (limits.speed > 0.0) {
         step = min_real(step, 0.5 * 3.141592653589793 / limits.speed);
@@ -3473,7 +3473,7 @@ static inline real step_of_excess(integer u, integer last, Excess excess, Bounds
     const real distance = sqrt(max_real(excess.apart + 4.0, 0.0)) + limits.speed * step;
     const Bends bends = bends_of_square(u, distance, limits, scene);
     const real low = min_real(bends.down, bends.size), high = min_real(bends.up, bends.size);
-    if (fabs(excess.apart) <= tolerance) {
+    if (fabs(excess.apart) <= length_tolerance) {
         return min_real(step, max_real(high > 0.0 ? fabs(excess.apart_slope) / high : step, DOUBLE_ROOT));
     }
     if (excess.apart > 0.0) {
@@ -3517,14 +3517,14 @@ static inline WindCandidate first_with_straight(integer u, integer last, SlotPos
         real until_) {
     SlotPose pose = begin;
     const WindCandidate none = (WindCandidate){0.0, slot.side, NO_PATH};
-    const real tolerance = 4.0 * scene.arc_tolerance;
+    const real length_tolerance = 4.0 * scene.arc_tolerance;
     Excess excess = excess_at(u, last, pose, slot, scene);
     if (bounds_at(last, pose, slot, scene).speed <= ROUNDING) {
         /* The last arc is on the circle itself: the vehicle would have been in the slot before. */
         return none;
     }
     Path path;
-    if (fabs(excess.value) <= tolerance && excess.apart >= -tolerance) {
+    if (fabs(excess.value) <= length_tolerance && excess.apart >= -length_tolerance) {
         path = path_with_straight(u, last, pose, scene);
         if (path.time < INFINITY) {
             return (WindCandidate){slot.phase + pose.width, slot.side, path};
@@ -3535,10 +3535,10 @@ static inline WindCandidate first_with_straight(integer u, integer last, SlotPos
             return none;
         }
         const Bounds limits = bounds_at(last, pose, slot, scene);
-        const real step = step_of_excess(u, last, excess, limits, scene, tolerance);
+        const real step = step_of_excess(u, last, excess, limits, scene, length_tolerance);
         const SlotPose ahead = slot_pose(pose.width + step, slot, scene);
         const Excess excess_ahead = excess_at(u, last, ahead, slot, scene);
-        const bool exists = excess.apart >= -tolerance && excess_ahead.apart >= -tolerance;
+        const bool exists = excess.apart >= -length_tolerance && excess_ahead.apart >= -length_tolerance;
         if (exists && (excess.value >= 0.0 && 0.0 > excess_ahead.value) && excess.value - excess_ahead.value <=
                 3.141592653589793 + 1.0) {
             const SlotPose root = root_of_excess(u, last, pose, ahead, slot, scene);
@@ -3578,7 +3578,7 @@ static inline WindCandidate first_of_three_arcs(integer u, integer halves, SlotP
     }
     const SlotPose origin = slot_pose(0.0, slot, scene);
     SlotPose pose = begin;
-    const real tolerance = 12.0 * scene.arc_tolerance;
+    const real length_tolerance = 12.0 * scene.arc_tolerance;
     const real half = 3.141592653589793 * (real)halves - 0.5 * angle(arc_rotation(u, scene.c, scene.s, origin.c,
             origin.s));
     for (integer pass_1 = 0; pass_1 < MOST_STEPS; pass_1++) {
@@ -3597,7 +3597,7 @@ static inline WindCandidate first_of_three_arcs(integer u, integer halves, SlotP
         const real high = min_real(bends.up + square + 4.0 * limits.speed_change, bends.size + square);
         const real spread = distance + 4.0 * sin(0.5 * middle.arc);
         real step;
-        if (fabs(middle.value) <= tolerance * (spread + tolerance)) {
+        if (fabs(middle.value) <= length_tolerance * (spread + length_tolerance)) {
             const Path path = path_of_three_arcs(u, middle, pose, scene);
             if (path.time < INFINITY) {
                 return (WindCandidate){slot.phase + pose.width, slot.side, path};
@@ -3659,7 +3659,7 @@ static inline WindEntry arrival_of(WindCandidate found, WindScene scene) {
 
 /* The first arrival in the slot that is at a phase at the time 0; nan, with a status, where there is none.
  *
- * The side of the problem must be 1 or -1. Its tolerance is not used.
+ * The side of the problem must be 1 or -1. The slot is entered exactly.
  */
 static inline WindEntry first_in_slot(WindProblem problem, real phase) {
     const integer status = wind_search_status_of(problem);

@@ -28,7 +28,7 @@ class PlacedArrival(NamedTuple):
     turn: Turn
     arrival: Arrival
     time: float
-    tolerance: float
+    length_tolerance: float
 
 
 def plan_at(
@@ -75,7 +75,7 @@ def arrival_in(problem: Problem, turn: Turn, time_s: float, bearing_deg: float) 
 
 
 def _path(one: PlacedArrival) -> ThreeArcs | None:
-    return path_of_length(one.arrival.at(one.time), one.time, one.tolerance)
+    return path_of_length(one.arrival.at(one.time), one.time, one.length_tolerance)
 
 
 def placed_arrival(problem: Problem, turn: Turn, time_s: float, bearing_deg: float) -> PlacedArrival:

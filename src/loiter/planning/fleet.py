@@ -8,7 +8,7 @@ from importlib import import_module
 from math import ceil, inf, pi, tau
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from loiter.compiled import wind_solver
+from loiter.compiled import solver
 from loiter.errors import InvalidArgument, MissingPackage, NotConverged, instance, not_negative, share
 from loiter.kernel.statuses import Status
 from loiter.kernel.wind import wind_search
@@ -213,14 +213,14 @@ class Ring:
 
     def time(self, i: int, phase: float) -> float:
         """The time of one aircraft into the slot at a phase at the start, seconds."""
-        entry = wind_solver.first_in_slot(self.given[i], phase)
+        entry = solver.first_in_slot(self.given[i], phase)
         if entry.status != Status.OK:
             raise NotConverged(f"no entry into a slot was found from {self.problems[i].pose}")
         return wind_search.time_of(entry) * self.unit_s
 
     def entry(self, i: int, slot: Slot) -> Maneuver:
         """The fastest maneuver of one aircraft into a slot."""
-        entry = wind_solver.first_in_slot(self.given[i], phase_at_start(slot, self.given[i], self.unit_s))
+        entry = solver.first_in_slot(self.given[i], phase_at_start(slot, self.given[i], self.unit_s))
         found = maneuver(self.problems[i], wind_search.entry_of(entry), entry.miss)
         return replace(found, orbit=self.problems[i].orbit)
 

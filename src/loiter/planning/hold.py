@@ -9,9 +9,18 @@ from typing import TYPE_CHECKING, NamedTuple
 from loiter.errors import InvalidArgument, positive
 from loiter.kernel.wind.hold import hold_pose, hold_rate, phase_of
 from loiter.planning.compass import heading_vector, wrapped
-from loiter.planning.feasibility import check_held, radius_in_turns, relative_wind
 from loiter.planning.flight import over_ground
-from loiter.planning.model import CALM, Aircraft, Orbit, Turn, TurnName, Wind
+from loiter.planning.model import (
+    CALM,
+    Aircraft,
+    Orbit,
+    Turn,
+    TurnName,
+    Wind,
+    check_held,
+    radius_in_turns,
+    relative_wind,
+)
 from loiter.planning.sides import SIDES
 
 if TYPE_CHECKING:

@@ -16,9 +16,8 @@ from loiter.kernel.wind.way_out import Exit, WayOut, entry_before, exit_point, l
 from loiter.kernel.wind.wind_search import scene_of
 from loiter.planning.arrival import arrival_in
 from loiter.planning.compass import wrapped
-from loiter.planning.feasibility import radius_in_turns, relative_wind
 from loiter.planning.maneuver import MAX_SAMPLES, Maneuver, decimals_of, maneuver_values, pose_values
-from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, Wind
+from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, Wind, radius_in_turns, relative_wind
 from loiter.planning.problem import Problem
 from loiter.planning.scaling import maneuver
 from loiter.planning.sides import directions, sign_of

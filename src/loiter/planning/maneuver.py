@@ -25,8 +25,8 @@ class Maneuver:
     `segments` are those through the air. `orbit` is the circle at the start, `orbit_at_join` the same circle at the
     time of joining. `turn` is the direction in which the circle is held, never "either"; `orbit.turn` is the direction
     of the problem. A start that is already on the circle has no segments and the word "". `miss_m` is the distance
-    between the end of the path, flown exactly, and the tangent point: only rounding, or at most `tolerance_m` of
-    `plan`.
+    between the end of the path, flown exactly, and the tangent point: only rounding, or what `plan` was
+    asked to allow.
     """
 
     start: Pose

@@ -15,9 +15,20 @@ from loiter.kernel.wind import wind_search
 from loiter.kernel.wind.wind_search import WindProblem
 from loiter.kernel.words import Side
 from loiter.planning.compass import heading_vector
-from loiter.planning.feasibility import RelativeWind, check_held, radius_in_turns, relative_wind, too_tight
 from loiter.planning.flight import flown_from
-from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, Wind
+from loiter.planning.model import (
+    CALM,
+    Aircraft,
+    Orbit,
+    Pose,
+    RelativeWind,
+    Turn,
+    Wind,
+    check_held,
+    radius_in_turns,
+    relative_wind,
+    too_tight,
+)
 from loiter.planning.sides import SIDES
 
 if TYPE_CHECKING:

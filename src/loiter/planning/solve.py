@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from typing import Any, NamedTuple
 
-from loiter.compiled import still_air_solver, wind_solver
+from loiter.compiled import solver
 from loiter.errors import InvalidArgument, NotConverged, instance
 from loiter.kernel.entry import Entry, duration, is_tie_in_wind, miss
 from loiter.kernel.statuses import Status
@@ -86,7 +86,7 @@ def best_and_others_in_slot(problem: Problem, slot: Slot) -> tuple[tuple[Maneuve
 def _arrival(problem: Problem, turn: Turn, slot: Slot) -> "Solved":
     """The fastest maneuver into a slot in one direction."""
     given = problem.with_turn(turn).in_wind()
-    entry = wind_solver.first_in_slot(given, phase_at_start(slot, given, problem.time_unit_s))
+    entry = solver.first_in_slot(given, phase_at_start(slot, given, problem.time_unit_s))
     if entry.status != Status.OK:
         raise _not_converged(problem)
     return Solved(maneuver(problem, wind_search.entry_of(entry), entry.miss), wind_search.time_of(entry))
@@ -127,12 +127,12 @@ def fastest(problem: Problem) -> Maneuver:
 
 def all_fastest(problem: Problem) -> tuple[Maneuver, ...]:
     """The answer of `plan_all` to a problem."""
-    return maneuvers(solve_problem(problem, optima, wind_solver.optima))
+    return maneuvers(solve_problem(problem, optima, solver.optima))
 
 
 def extremals(problem: Problem) -> tuple[Maneuver, ...]:
     """The answer of `candidates` to a problem."""
-    return maneuvers(solve_problem(problem, ranked, wind_solver.ranked))
+    return maneuvers(solve_problem(problem, ranked, solver.ranked))
 
 
 def best_and_others(problem: Problem) -> tuple[tuple[Maneuver, ...], tuple[Maneuver, ...]]:
@@ -140,7 +140,7 @@ def best_and_others(problem: Problem) -> tuple[tuple[Maneuver, ...], tuple[Maneu
 
     Raises the errors of `plan`. In wind it takes half the time of `plan_all` followed by `candidates`.
     """
-    known = solve_problem(problem.with_turn(Turn.EITHER), ranked, wind_solver.ranked)
+    known = solve_problem(problem.with_turn(Turn.EITHER), ranked, solver.ranked)
     best = all_fastest(problem) if problem.has_closed_form else _tied(known, problem)
     others = maneuvers(known)
     return best, tuple(m for m in others if not any(m.turn == b.turn and m.segments == b.segments for b in best))
@@ -201,9 +201,9 @@ def _tied(known: Sequence[Solved], problem: Problem) -> tuple[Maneuver, ...]:
 
 
 def _optimum_alone(*arguments: Any) -> list[Entry]:
-    best = still_air_solver.optimum(*arguments)
+    best = solver.optimum(*arguments)
     return [] if best is None else [best]
 
 
 def _fastest_alone(problem: WindProblem) -> list[WindEntry]:
-    return [wind_solver.fastest(problem)]
+    return [solver.fastest(problem)]

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from cmath import exp
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from math import hypot, inf
 from typing import NamedTuple
 
-from loiter.compiled import wind_solver
+from loiter.compiled import solver
 from loiter.kernel.entry import WIND_TIE_TOLERANCE, Entry, duration
 from loiter.kernel.exact import beyond
 from loiter.kernel.motion import flow
@@ -60,12 +59,12 @@ def _in_wind(trajectory: Trajectory) -> LeastTimes:
     def time(axis: int, step: float) -> float:
         e = complex(problem.c, problem.s) * (exp(1j * step) if axis == 2 else 1.0)
         x, y = problem.x + step * (axis == 0), problem.y + step * (axis == 1)
-        return wind_search.time_of(wind_solver.fastest(problem._replace(x=x, y=y, c=e.real, s=e.imag)))
+        return wind_search.time_of(solver.fastest(problem._replace(x=x, y=y, c=e.real, s=e.imag)))
 
     def after(u: int, step: float) -> float:
         piece = FlownPiece(u, step, complex(problem.x, problem.y), complex(problem.c, problem.s), 0.0, 1.0 + 0.0j, w)
         q, e, _, _ = piece.end
-        return wind_search.time_of(wind_solver.fastest(problem._replace(x=q.real, y=q.imag, c=e.real, s=e.imag)))
+        return wind_search.time_of(solver.fastest(problem._replace(x=q.real, y=q.imag, c=e.real, s=e.imag)))
 
     def by_heading(slopes: Sequence[float]) -> float:
         _, _, slope = slopes
@@ -86,9 +85,8 @@ def _in_wind(trajectory: Trajectory) -> LeastTimes:
 def _in_still_air(trajectory: Trajectory) -> LeastTimes:
     problem = trajectory.problem.reduced()
     x, y, R, side, tolerance = problem
-    # Far from the origin the rounding of coordinates exceeds that of the reduced state; the kernel counts starts within
-    # it as on a last arc, where T does not depend on the state as elsewhere.
-    rounded = max(rounding(x, y, R), replace(trajectory.problem, tolerance_m=0.0).reduced().tolerance)
+    # The kernel counts starts within rounding as on a last arc, where T does not depend on the state as elsewhere.
+    rounded = rounding(x, y, R)
 
     def fastest(axis: int, step: float) -> Entry:
         return optimum(x + step * (axis == 0), y + step * (axis == 1), R, side, tolerance)

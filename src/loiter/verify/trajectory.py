@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from cmath import exp
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
 from math import atan2, pi, sin
@@ -22,7 +22,7 @@ from loiter.errors import InvalidArgument, as_float
 from loiter.kernel.rounding import REACH
 from loiter.kernel.words import Word
 from loiter.planning.maneuver import Maneuver
-from loiter.planning.model import Turn
+from loiter.planning.model import CALM, Turn
 from loiter.planning.problem import Problem, ReducedProblem
 
 # Instants checked in each piece. Once the extremes of psi1 and phi are added, both are monotone between instants.
@@ -196,9 +196,8 @@ class Trajectory:
     @cached_property
     def reduced_join(self) -> ReducedProblem:
         """The maneuver's own last pose as a start in still air: its reduced state."""
-        maneuver, problem = self.maneuver, self.problem
-        join = Problem(maneuver.join, maneuver.orbit_at_join, maneuver.aircraft, tolerance_m=problem.tolerance_m)
-        return join.reduced()
+        maneuver = self.maneuver
+        return replace(self.problem, pose=maneuver.join, orbit=maneuver.orbit_at_join, wind=CALM).reduced()
 
     @cached_property
     def violations(self) -> MaximumPrinciple:

@@ -5,14 +5,12 @@ from __future__ import annotations
 import os
 import signal
 import sys
-from collections.abc import Callable, Iterator
-from contextlib import closing, contextmanager, suppress
-from math import isnan
+from collections.abc import Callable
+from contextlib import closing, suppress
 from pathlib import Path
 from queue import Empty, Queue
 from threading import Thread
-from types import FrameType
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 from cyclopts import Parameter
 
@@ -33,20 +31,9 @@ from loiter.cli.options import (
 )
 from loiter.cli.scenes import read_slot
 from loiter.cli.status import abandon_output
-from loiter.errors import InvalidArgument, LinkFailed, not_negative, positive, share
+from loiter.errors import InvalidArgument, LinkFailed
 from loiter.guidance.entry.slot_entry import BAND
 from loiter.mavlink.connection.link import TIMEOUT_S
-from loiter.planning.model import wind_from_velocity
-
-if TYPE_CHECKING:
-    from loiter.mavlink import GuideReport
-
-# Winds below this, metres per second, and offsets below this, metres, are omitted: they would print as 0.
-LEAST_WIND_M_S, LEAST_OFFSET_M = 0.05, 0.05
-
-# Signals that end the program: the vehicle is commanded back to the fall-back circle first. Shells let programs that
-# they start in the background ignore SIGINT.
-ENDING_SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP")
 
 
 def guide(
@@ -140,32 +127,31 @@ def guide(
     wind, altitude_m = None if air.wind is None else air.moving_air, written_altitude(uav.altitude)
     if not (yes or dry_run or sys.stdin.isatty()):
         raise InvalidArgument("yes", "is needed where nobody can answer: standard input is not a terminal")
+    alone = {"connection": connect, "system": system, "slot": slot, "slot_at_s": slot_at, "log": log}
+    alone |= {"fence": fence.fence, "keep": keep or None}
+    for name, value in ({"separation_m": separation} if fleet is None else alone).items():
+        if value is not None:
+            raise InvalidArgument(name, f"has no effect {'without' if fleet is None else 'with'} --fleet")
     if fleet is not None:
         from loiter.cli.commands.guide_fleet import FleetOutput, guide_fleet
         from loiter.mavlink.guiding.fleet import FleetRequest
 
-        single = {"connection": connect, "system": system, "slot": slot, "slot_at_s": slot_at, "log": log}
-        for name, value in (single | {"fence": fence.fence, "keep": keep or None}).items():
-            if value is not None:
-                raise InvalidArgument(name, "has no effect with --fleet")
         if uav.airspeed is None:
             raise InvalidArgument("airspeed_m_s", "is needed with --fleet: the slots move with it")
         request = FleetRequest(
             orbit=orbit,
             frame=frame,
-            airspeed_m_s=positive("airspeed_m_s", uav.airspeed, "metres per second"),
-            max_bank_deg=None if uav.bank is None else positive("max_bank_deg", uav.bank, "degrees"),
+            airspeed_m_s=uav.airspeed,
+            max_bank_deg=uav.bank,
             wind=wind,
             altitude_m=altitude_m,
             timeout_s=timeout,
-            slot_band=BAND if slot_band is None else share("slot_band", slot_band),
+            slot_band=BAND if slot_band is None else slot_band,
             accept_fly_away=accept_fly_away,
             resume=resume,
-            separation_m=0.0 if separation is None else not_negative("separation_m", separation, "metres"),
+            separation_m=separation or 0.0,
         )
         return guide_fleet(fleet, request, FleetOutput(None if yes or dry_run else _question(), dry_run, every, json))
-    if separation is not None:
-        raise InvalidArgument("separation_m", "has no effect without --fleet")
     if connect is None:
         raise InvalidArgument("connection", "is needed, or --fleet for several vehicles")
     reports = loiter.mavlink.guide(
@@ -189,13 +175,13 @@ def guide(
         margin_m=fence.margin,
         **_slot_arguments(slot, slot_at, slot_band),
     )
-    with ending_signals(signal.default_int_handler), closing(reports):
+    with vehicles.ending_signals(signal.default_int_handler), closing(reports):
         try:
             for vehicle in reports:
                 if json:
                     vehicles.print_line(vehicles.guide_document(vehicle))
                     continue
-                report.write(*vehicle.notices, line(vehicle))
+                report.write(*vehicle.notices, vehicles.line(vehicle))
                 sys.stdout.flush()
         except BrokenPipeError:
             # The vehicle is commanded back, and the error says so.
@@ -241,77 +227,3 @@ def _question() -> Callable[[], bool]:
         return False
 
     return agreed
-
-
-@contextmanager
-def ending_signals(handler: Callable[[int, FrameType | None], object]) -> Iterator[None]:
-    """`ENDING_SIGNALS` have this handler meanwhile."""
-    numbers = [number for name in ENDING_SIGNALS if (number := getattr(signal, name, None)) is not None]
-    former = [signal.signal(number, handler) for number in numbers]
-    try:
-        yield
-    finally:
-        for number, before in zip(numbers, former, strict=True):
-            signal.signal(number, before)
-
-
-def line(vehicle: GuideReport) -> str:
-    """A report in a line: "  12.0 s: joining clockwise in 8.2 s; bank 44 of 45 deg; 600 m, 100 above home; ..."."""
-    parts = [_progress(vehicle), *_bank(vehicle), *_altitude(vehicle), *_offset(vehicle), *_slot(vehicle)]
-    parts += _wind(vehicle)
-    return f"{vehicle.time_s:6.1f} s: {'; '.join(parts)}"
-
-
-def _progress(vehicle: GuideReport) -> str:
-    if isnan(vehicle.time_to_join_s):
-        return str(vehicle.stage)
-    turn = vehicle.turn.described
-    if vehicle.stage in ("joining", "dry run"):
-        return f"{vehicle.stage} {turn} in {vehicle.time_to_join_s:.1f} s"
-    return f"{vehicle.stage} {turn}"
-
-
-def _bank(vehicle: GuideReport) -> list[str]:
-    """The measured and the commanded bank."""
-    if vehicle.state is None or isnan(vehicle.command_deg):
-        return []
-    return [f"bank {round(vehicle.state.bank_deg)} of {round(vehicle.command_deg)} deg"]
-
-
-def _altitude(vehicle: GuideReport) -> list[str]:
-    if isnan(vehicle.altitude_m):
-        return []
-    side = "above" if vehicle.height_m >= 0.0 else "below"
-    height = "" if isnan(vehicle.height_m) else f", {abs(round(vehicle.height_m))} {side} home"
-    return [f"{round(vehicle.altitude_m)} m{height}"]
-
-
-def _offset(vehicle: GuideReport) -> list[str]:
-    """How far the vehicle is beside its path or, on the circle, outside it."""
-    on_circle = vehicle.stage in ("holding", "handing over", "handed over")
-    offset_m, sides = (
-        (vehicle.outside_m, ("outside", "inside")) if on_circle else (vehicle.crosstrack_m, ("left", "right"))
-    )
-    if isnan(offset_m):
-        return []
-    side = sides[0] if offset_m > 0.0 else sides[1]
-    place = "circle" if on_circle else "path"
-    beside = side if on_circle else f"{side} of path"
-    return [f"on {place}" if abs(offset_m) < LEAST_OFFSET_M else f"{abs(offset_m):.1f} m {beside}"]
-
-
-def _slot(vehicle: GuideReport) -> list[str]:
-    """How far the slot is ahead or behind."""
-    ahead_deg = vehicle.slot_ahead_deg
-    if isnan(ahead_deg):
-        return []
-    return [f"slot {abs(ahead_deg):.1f} deg {'ahead' if ahead_deg >= 0.0 else 'behind'}"]
-
-
-def _wind(vehicle: GuideReport) -> list[str]:
-    """The wind that the law estimates."""
-    e = vehicle.estimates
-    if e is None:
-        return []
-    wind = wind_from_velocity(e.wind_east_m_s, e.wind_north_m_s)
-    return [f"wind {wind.speed_m_s:.1f} m/s from {wind.from_deg:03.0f}"] if wind.speed_m_s >= LEAST_WIND_M_S else []

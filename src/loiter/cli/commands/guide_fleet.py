@@ -14,8 +14,8 @@ from rich.console import RenderableType
 from loiter.batch.fleets import read_connections
 from loiter.cli import report
 from loiter.cli.commands.fleet import ShownFleet
-from loiter.cli.commands.guide import ending_signals, line
 from loiter.cli.status import LINK_FAILED, abandon_output
+from loiter.cli.vehicles import ending_signals, line
 from loiter.errors import LinkFailed
 from loiter.mavlink.guiding.fleet import REPORT_S, FleetRequest, GuidedFleet, Member, check_fleet
 from loiter.planning.model import Orbit
@@ -48,7 +48,7 @@ def guide_fleet(table: Path, request: FleetRequest, output: FleetOutput) -> int:
     cannot be guided at the start: none is commanded then.
     """
     vehicles = read_connections(table)
-    check_fleet(vehicles, request.timeout_s)
+    check_fleet(vehicles, request)
     # Noted, and not raised: an exception could come amid a message.
     signals: list[int] = []
     with ending_signals(lambda number, _: signals.append(number)), GuidedFleet(vehicles, request) as fleet:

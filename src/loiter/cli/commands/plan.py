@@ -141,9 +141,8 @@ def plan(
     autopilot: AutopilotChoice = None,
 ) -> int:
     """Plan the fastest entry onto a holding circle: which turns to fly, for how long, and where to peel off."""
-    (problem, frame), remark = read_options(
-        start, circle, uav, air, tolerance_m=tolerance, fit=fit, datum=waypoints.datum(circle.site)
-    )
+    (problem, frame), remark = read_options(start, circle, uav, air, fit=fit, datum=waypoints.datum(circle.site))
+    problem = replace(problem, tolerance_m=tolerance)
     if lead:
         problem = problem.later(lead)
     pictures.check()

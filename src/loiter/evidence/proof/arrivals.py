@@ -204,7 +204,7 @@ def single_arcs() -> int:
 
 
 def single_arc_within_tolerance(word: Callable[..., kernel.Extremal], whole: Plane, centre: float) -> None:
-    """Check that a tolerance widens the circle of a single arc, and applies to the arc."""
+    """Check that `arc_tolerance` widens the circle of a single arc, and applies to the arc."""
     field, point, R, q = whole
     near, snapped, arc_tolerance, asked = object(), SnappedArcs(), object(), list[tuple[Any, ...]]()
 
@@ -217,9 +217,9 @@ def single_arc_within_tolerance(word: Callable[..., kernel.Extremal], whole: Pla
     for near in (False, True):
         extremal = copied(word)(start)
         exists = near and (centre < 0.0 or not (R - 1.0).is_zero)
-        require((extremal.straight is not inf) == exists, f"{word.__name__} does not exist within a tolerance")
+        require((extremal.straight is not inf) == exists, f"{word.__name__} does not exist within `arc_tolerance`")
     same = all(a.is_zero and b.is_zero and c is arc_tolerance for a, b, c in asked)
-    require(same, f"{word.__name__}: the tolerance is not that of its circle")
+    require(same, f"{word.__name__}: `arc_tolerance` is not that of its circle")
     snapped.arcs = snapped.arcs[-1:]
     snapped.check(word.__name__, arc_tolerance, (extremal.first, (R - centre) * (R - centre)))
 

@@ -36,12 +36,12 @@ def exact(
 
 
 def start_at(field: Field, x: Expression, y: Expression, R: Expression) -> kernel.Start:
-    """The kernel's start at expressions, with an arc tolerance of 0."""
+    """The kernel's start at expressions, with an `arc_tolerance` of 0."""
     (function,) = exact(field, kernel.start_at)
     arc_tolerance = field.constant(0.0)
     start: kernel.Start = function(x, y, R, arc_tolerance)
     if any(a is not b for a, b in zip(start[:4], (x, y, R, arc_tolerance), strict=True)):  # type: ignore[comparison-overlap]
-        raise NotProved("`start_at` has another state, radius or arc tolerance")
+        raise NotProved("`start_at` has another state, radius or `arc_tolerance`")
     return start
 
 
@@ -70,7 +70,7 @@ class SnappedArcs:
             for rotated, radius2 in expected
         )
         if not same:
-            raise NotProved(f"{name}: the arc tolerance is another")
+            raise NotProved(f"{name}: `arc_tolerance` is another")
 
 
 def squared(point: Point, centre: float) -> Expression:

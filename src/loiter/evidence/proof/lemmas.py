@@ -36,7 +36,9 @@ LEMMAS = (
     Lemma("theorem 2 a", "where two rows of the table meet, their words are one path", coinciding.coinciding),
     Lemma("theorem 2 b", "the words that `fastest` compares are those of the text", compared_words.selection),
     Lemma("theorem 2 c", "the time of a word is the sum of its pieces, each turn below 2 pi", turns.times_of_turns),
-    Lemma("theorem 2 d", "a tolerance leaves out arcs, and widens circles, by no more than it says", turns.tolerances),
+    Lemma(
+        "theorem 2 d", "`arc_tolerance` leaves out arcs, and widens circles, by no more than it says", turns.tolerances
+    ),
     Lemma("theorem 2 e", "the list of all extremals has each word once", maneuvers.all_extremals),
     Lemma("theorem 2 f", "words are encoded, mirrored and shortened without loss", maneuvers.all_words),
     Lemma(

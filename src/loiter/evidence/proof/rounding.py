@@ -252,8 +252,8 @@ def with_reach(within_reach: Callable[..., Any]) -> Callable[..., Any]:
 
 def check_reach() -> None:
     """Raise `NotProved` where `within_reach` is not computed as 4 (R + y + 2) - `outer`."""
-    x, y, R, tolerance, outer, inner, fold = map(Traced, ("x", "y", "R", "tolerance", "outer", "inner", "fold"))
-    start: Any = kernel.Start(x, y, R, tolerance, outer, inner, fold)  # type: ignore[arg-type]
+    x, y, R, arc, outer, inner, fold = map(Traced, ("x", "y", "R", "arc", "outer", "inner", "fold"))
+    start: Any = kernel.Start(x, y, R, arc, outer, inner, fold)  # type: ignore[arg-type]
     expected = 4.0 * ((R + y) + 2.0) - outer
     require(kernel.within_reach(start).text == expected.text, "`within_reach` is not 4 (R + y + 2) - outer")  # type: ignore[attr-defined]
 

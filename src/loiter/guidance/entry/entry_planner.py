@@ -5,8 +5,8 @@ from __future__ import annotations
 from math import nan
 from typing import NamedTuple
 
-from loiter.compiled.still_air_solver import optimum
-from loiter.compiled.wind_solver import advance as advance_in_wind
+from loiter.compiled.solver import advance as advance_in_wind
+from loiter.compiled.solver import optimum
 from loiter.guidance.entry.path_tracking import flight_velocity
 from loiter.kernel.angles import length
 from loiter.kernel.entry import Entry

@@ -22,8 +22,7 @@ from loiter.guidance.estimation.vehicle import VehicleEstimates, VehicleModel, f
 from loiter.guidance.estimation.wind_fit import DECLARED_WIND_S
 from loiter.guidance.protocol import PHASES, Command, Phase, State
 from loiter.guidance.vehicle.rolling import INSTANT_ROLL, Roll, RollValues
-from loiter.planning.feasibility import check_held, relative_wind
-from loiter.planning.model import CALM, Aircraft, Orbit, Turn, Wind
+from loiter.planning.model import CALM, Aircraft, Orbit, Turn, Wind, check_held, relative_wind
 from loiter.planning.sides import sign_of
 
 # The names of the codes of a step.

@@ -11,7 +11,7 @@ from __future__ import annotations
 from math import ceil, inf, nan
 from typing import NamedTuple
 
-from loiter.compiled.wind_solver import first_in_slot
+from loiter.compiled.solver import first_in_slot
 from loiter.guidance.entry.entry_planner import (
     EntrySearch,
     PlannedEntry,

@@ -15,8 +15,17 @@ from loiter.guidance.protocol import Command, Phase, State
 from loiter.guidance.vehicle.circle import Band, CircleOffset
 from loiter.guidance.vehicle.limits import clip
 from loiter.guidance.vehicle.turning import bank_at_rate, rate_at_bank
-from loiter.planning.feasibility import check_held, relative_wind
-from loiter.planning.model import CALM, STANDARD_GRAVITY_M_S2, Aircraft, Orbit, Pose, Turn, Wind
+from loiter.planning.model import (
+    CALM,
+    STANDARD_GRAVITY_M_S2,
+    Aircraft,
+    Orbit,
+    Pose,
+    Turn,
+    Wind,
+    check_held,
+    relative_wind,
+)
 from loiter.planning.sides import sign_of
 from loiter.planning.solve import plan
 

@@ -25,9 +25,8 @@ from loiter.guidance.trials.flight import LIMIT_S, STEP_S, Flight, fly
 from loiter.guidance.vehicle.circle import Band
 from loiter.guidance.vehicle.rolling import Roll
 from loiter.kernel.wind.hold import tightest_radius
-from loiter.planning.feasibility import relative_wind
 from loiter.planning.maneuver import Maneuver
-from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Wind
+from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Wind, relative_wind
 from loiter.planning.solve import plan
 
 if TYPE_CHECKING:

@@ -90,12 +90,12 @@ class Stretch(NamedTuple):
 
 def families(ends: Ends) -> Iterator[Family]:
     """The families between two poses, those of LSR and RSL where their circles touch, up to rounding, or are apart."""
-    tolerance = ROUNDING * (1.0 + abs(ends.x) + abs(ends.y))
+    length_tolerance = ROUNDING * (1.0 + abs(ends.x) + abs(ends.y))
     for first, last in OUTER_CONTROLS:
         dx = -first * ends.s0 - (ends.x - last * ends.s)
         dy = first * ends.c0 - (ends.y + last * ends.c)
         distance = length(dx, dy)
-        if first == last or distance >= 2.0 - tolerance:
+        if first == last or distance >= 2.0 - length_tolerance:
             yield Family(first, last, ends, distance, atan2(dy, dx))
 
 
@@ -213,11 +213,11 @@ def on_touching_circles(family: Family) -> ThreeArcs:
     return ThreeArcs(first, 0.0, last, t1, 0.0, angle(arc_rotation(last, nx, ny, -ends.s, ends.c)))
 
 
-def turns_more(stretch: Stretch, wanted: float, tolerance: float) -> int:
+def turns_more(stretch: Stretch, wanted: float, length_tolerance: float) -> int:
     """The least number of whole turns with which a stretch has a path of a length; -1 where it has none."""
-    short = wanted - stretch.longest.length - tolerance
+    short = wanted - stretch.longest.length - length_tolerance
     turns = ceil(short / TWO_PI) if short > 0.0 else 0
-    return turns if wanted - TWO_PI * turns >= stretch.shortest.length - tolerance else -1
+    return turns if wanted - TWO_PI * turns >= stretch.shortest.length - length_tolerance else -1
 
 
 def is_reachable(ends: Ends, wanted: float) -> bool:
@@ -225,11 +225,11 @@ def is_reachable(ends: Ends, wanted: float) -> bool:
     return any(turns_more(stretch, wanted, 0.0) >= 0 for stretch in stretches(ends))
 
 
-def path_of_length(ends: Ends, wanted: float, tolerance: float) -> ThreeArcs | None:
-    """The path of a length that turns least; None where there is none, up to a tolerance."""
+def path_of_length(ends: Ends, wanted: float, length_tolerance: float) -> ThreeArcs | None:
+    """The path of a length that turns least; None where there is none, up to `length_tolerance`."""
     found = []
     for stretch in stretches(ends):
-        turns = turns_more(stretch, wanted, tolerance)
+        turns = turns_more(stretch, wanted, length_tolerance)
         if turns >= 0:
             path = path_within(stretch, wanted - TWO_PI * turns)
             # Next to two arcs that touch up to rounding the length jumps.

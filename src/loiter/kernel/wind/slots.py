@@ -232,7 +232,9 @@ def bends_of_square(u: int, distance: float, limits: Bounds, scene: WindScene) -
     return Bends(general, general + rise, 2.0 * limits.speed * length(scene.x - u * scene.s, scene.y + u * scene.c))
 
 
-def step_of_excess(u: int, last: int, excess: Excess, limits: Bounds, scene: WindScene, tolerance: float) -> float:
+def step_of_excess(
+    u: int, last: int, excess: Excess, limits: Bounds, scene: WindScene, length_tolerance: float
+) -> float:
     """A step within which the excess falls by at most half a turn, and LSR and RSL neither begin nor cease to exist."""
     step = limits.step
     if limits.speed > 0.0:
@@ -242,7 +244,7 @@ def step_of_excess(u: int, last: int, excess: Excess, limits: Bounds, scene: Win
     distance = sqrt(max(excess.apart + 4.0, 0.0)) + limits.speed * step
     bends = bends_of_square(u, distance, limits, scene)
     low, high = min(bends.down, bends.size), min(bends.up, bends.size)
-    if abs(excess.apart) <= tolerance:
+    if abs(excess.apart) <= length_tolerance:
         return min(step, max(abs(excess.apart_slope) / high if high > 0.0 else step, DOUBLE_ROOT))
     if excess.apart > 0.0:
         return min(step, step_without_zero(excess.apart, excess.apart_slope, low))
@@ -254,12 +256,12 @@ def first_with_straight(
 ) -> WindCandidate:
     """The first arrival by the word with these outer controls and a straight piece; `NO_PATH` for none by `until`."""
     pose, none = begin, WindCandidate(0.0, slot.side, NO_PATH)
-    tolerance = 4.0 * scene.arc_tolerance
+    length_tolerance = 4.0 * scene.arc_tolerance
     excess = excess_at(u, last, pose, slot, scene)
     if bounds_at(last, pose, slot, scene).speed <= ROUNDING:
         # The last arc is on the circle itself: the vehicle would have been in the slot before.
         return none
-    if abs(excess.value) <= tolerance and excess.apart >= -tolerance:
+    if abs(excess.value) <= length_tolerance and excess.apart >= -length_tolerance:
         path = path_with_straight(u, last, pose, scene)
         if path.time < inf:
             return WindCandidate(slot.phase + pose.width, slot.side, path)
@@ -267,10 +269,10 @@ def first_with_straight(
         if pose.time > until:
             return none
         limits = bounds_at(last, pose, slot, scene)
-        step = step_of_excess(u, last, excess, limits, scene, tolerance)
+        step = step_of_excess(u, last, excess, limits, scene, length_tolerance)
         ahead = slot_pose(pose.width + step, slot, scene)
         excess_ahead = excess_at(u, last, ahead, slot, scene)
-        exists = excess.apart >= -tolerance and excess_ahead.apart >= -tolerance
+        exists = excess.apart >= -length_tolerance and excess_ahead.apart >= -length_tolerance
         if exists and excess.value >= 0.0 > excess_ahead.value and excess.value - excess_ahead.value <= pi + 1.0:
             root = root_of_excess(u, last, pose, ahead, slot, scene)
             path = path_with_straight(u, last, root, scene)
@@ -342,7 +344,7 @@ def first_of_three_arcs(
     none = WindCandidate(0.0, slot.side, NO_PATH)
     if bounds_at(u, begin, slot, scene).speed <= ROUNDING:
         return none
-    origin, pose, tolerance = slot_pose(0.0, slot, scene), begin, 12.0 * scene.arc_tolerance
+    origin, pose, length_tolerance = slot_pose(0.0, slot, scene), begin, 12.0 * scene.arc_tolerance
     half = pi * halves - 0.5 * angle(arc_rotation(u, scene.c, scene.s, origin.c, origin.s))
     for _ in range(MOST_STEPS):
         if pose.time > until:
@@ -357,7 +359,7 @@ def first_of_three_arcs(
         low = min(bends.down + 4.0 * limits.speed_change, bends.size + square)
         high = min(bends.up + square + 4.0 * limits.speed_change, bends.size + square)
         spread = distance + 4.0 * sin(0.5 * middle.arc)
-        if abs(middle.value) <= tolerance * (spread + tolerance):
+        if abs(middle.value) <= length_tolerance * (spread + length_tolerance):
             path = path_of_three_arcs(u, middle, pose, scene)
             if path.time < inf:
                 return WindCandidate(slot.phase + pose.width, slot.side, path)
@@ -412,7 +414,7 @@ def arrival_of(found: WindCandidate, scene: WindScene) -> WindEntry:
 def first_in_slot(problem: WindProblem, phase: float) -> WindEntry:
     """The first arrival in the slot that is at a phase at the time 0; nan, with a status, where there is none.
 
-    The side of the problem must be 1 or -1. Its tolerance is not used.
+    The side of the problem must be 1 or -1. The slot is entered exactly.
     """
     status = status_of(problem)
     if status != Status.OK:

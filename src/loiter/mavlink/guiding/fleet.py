@@ -19,7 +19,7 @@ from time import monotonic, time
 from typing import Any, NamedTuple
 
 from loiter.batch.fleets import FleetVehicle
-from loiter.errors import InvalidArgument, LinkFailed, LoiterError
+from loiter.errors import InvalidArgument, LinkFailed, LoiterError, not_negative, positive, share
 from loiter.geo import LocalFrame
 from loiter.guidance.entry.slot_entry import BAND
 from loiter.guidance.protocol import State
@@ -147,11 +147,16 @@ class Member:
         return complex(s.east_m + s.velocity_east_m_s * age_s, s.north_m + s.velocity_north_m_s * age_s)
 
 
-def check_fleet(vehicles: Sequence[FleetVehicle], timeout_s: float) -> None:
-    """Raise `InvalidArgument` for connections that are none, and for those that two vehicles cannot share."""
+def check_fleet(vehicles: Sequence[FleetVehicle], request: FleetRequest) -> None:
+    """Raise `InvalidArgument` for numbers and connections that are none, and for a connection that two cannot share."""
+    positive("airspeed_m_s", request.airspeed_m_s, "metres per second")
+    if request.max_bank_deg is not None:
+        positive("max_bank_deg", request.max_bank_deg, "degrees")
+    share("slot_band", request.slot_band)
+    not_negative("separation_m", request.separation_m, "metres")
     for vehicle in vehicles:
         try:
-            check_target(vehicle.connection, vehicle.system, 1, timeout_s)
+            check_target(vehicle.connection, vehicle.system, 1, request.timeout_s)
         except InvalidArgument as error:
             raise InvalidArgument("table", f"is wrong for {vehicle.name}: {error}") from error
     for one, other in combinations(vehicles, 2):

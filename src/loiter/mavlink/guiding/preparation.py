@@ -25,8 +25,17 @@ from loiter.mavlink.guiding.measurements import AirspeedSource
 from loiter.mavlink.guiding.monitor import LEAST_HEIGHT_M, LEAST_HZ
 from loiter.mavlink.missions.fences import receive_fence
 from loiter.planning.compass import wrapped
-from loiter.planning.feasibility import RelativeWind, check_held, is_holdable, relative_velocity
-from loiter.planning.model import Aircraft, Orbit, Pose, Turn, Wind
+from loiter.planning.model import (
+    Aircraft,
+    Orbit,
+    Pose,
+    RelativeWind,
+    Turn,
+    Wind,
+    check_held,
+    is_holdable,
+    relative_velocity,
+)
 from loiter.planning.slot import Slot
 from loiter.planning.solve import plan
 

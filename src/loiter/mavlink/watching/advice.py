@@ -61,16 +61,16 @@ def plan_offset(plan: Maneuver) -> CircleOffset:
 class HoldDetector:
     """Detects, from successive offsets, whether an aircraft holds the circle, and in which direction."""
 
-    def __init__(self, radius_m: float, tolerance_m: float) -> None:
+    def __init__(self, radius_m: float, noise_m: float) -> None:
         self._band = Band(max(BAND_SHARE, BAND_M / radius_m), ALONG_DEG)
-        self._tolerance_m = tolerance_m
+        self._noise_m = noise_m
         self._along_since: dict[Turn, float] = {}
         self._turn: Turn | None = None
 
     def turn(self, offset: CircleOffset, turns: Sequence[Turn], time_s: float) -> Turn | None:
         """The direction of `turns` in which the circle is held at a time, or None.
 
-        For the first of `turns`, flying along the circle within `tolerance_m` of it counts as holding it at once.
+        For the first of `turns`, flying along the circle within `noise_m` of it counts as holding it at once.
         """
         if self._turn is not None and self._band.has(offset, sign_of(self._turn), LEAVING):
             return self._turn
@@ -80,7 +80,7 @@ class HoldDetector:
                 self._along_since.pop(turn, None)
                 continue
             since_s = time_s - self._along_since.setdefault(turn, time_s)
-            if since_s >= HOLD_S or (i == 0 and abs(offset.outside_m) <= self._tolerance_m):
+            if since_s >= HOLD_S or (i == 0 and abs(offset.outside_m) <= self._noise_m):
                 self._turn = turn
                 break
         return self._turn

@@ -78,7 +78,7 @@ def _problem(placed: PlacedProblem, asked: LegRequest) -> Problem:
     pose = replace(problem.pose, altitude_m=asked.start_altitude_m)
     rates = asked.climb_rate_m_s, asked.descent_rate_m_s
     uav = replace(problem.aircraft, climb_rate_m_s=rates[0], descent_rate_m_s=rates[1])
-    return replace(problem, pose=pose, aircraft=uav, tolerance_m=0.0)
+    return Problem(pose, problem.orbit, uav, problem.wind)
 
 
 def _planned(placed: PlacedProblem, asked: LegRequest) -> LegPlan:

@@ -9,8 +9,8 @@ from loiter.arrays import reduce
 from loiter.io.maps.track import step_counts, vertices
 from loiter.kernel.wind.hold import hold_pose, phase_of
 from loiter.planning.compass import wrapped
-from loiter.planning.feasibility import radius_in_turns, relative_wind
 from loiter.planning.maneuver import Maneuver
+from loiter.planning.model import radius_in_turns, relative_wind
 from loiter.planning.sides import SIDES
 
 # Largest chord error, turn radii: a pixel on a screen that shows the turn radius as 500 pixels.

@@ -1,4 +1,4 @@
-"""Theorem 2 of docs/proof.md, from rotations to times: `angles`, `extremals.duration`, the tolerance of arcs, `exact`.
+"""Theorem 2 of docs/proof.md, from rotations to times: `angles`, `extremals.duration`, `arc_tolerance`, `exact`.
 
 Each function is run for every combination of signs of its arguments, or with the functions that it calls replaced by
 stand-ins that record their arguments, so that what it computes from them can be read off.
@@ -215,7 +215,7 @@ def times_of_pieces() -> None:
     zero("`durations`", *(field.of(a) - b for a, b in zip(angle(extremal), expected, strict=True)))
 
 
-# The tolerance of arcs
+# `arc_tolerance`
 
 
 def tolerances() -> Certainty:
@@ -233,30 +233,30 @@ def tolerances() -> Certainty:
 
 
 def check_snapping(cross_sign: Possible, dot_sign: Possible, excess: Possible) -> int:
-    """A rotation is replaced by none where its tangent times the radius is in [-tolerance, 0); the number of cases."""
-    cross, dot, radius2, tolerance, field = variables("cross dot radius2 tolerance")
+    """A rotation is none where its tangent times the radius is in [-arc_tolerance, 0); the number of cases."""
+    cross, dot, radius2, arc_tolerance, field = variables("cross dot radius2 arc_tolerance")
     try:
         field.assume(radius2, NEVER_NEGATIVE)
-        field.assume(tolerance, NEVER_NEGATIVE)
+        field.assume(arc_tolerance, NEVER_NEGATIVE)
         field.assume(cross, cross_sign)
         field.assume(dot, dot_sign)
-        field.assume(cross * cross * radius2 - tolerance * tolerance * dot * dot, excess)
+        field.assume(cross * cross * radius2 - arc_tolerance * arc_tolerance * dot * dot, excess)
     except Impossible:
         return 0
-    found = rebinding(field.names())(angles.snap_full_turn)((cross, dot), radius2, tolerance)
+    found = rebinding(field.names())(angles.snap_full_turn)((cross, dot), radius2, arc_tolerance)
     missing = cross_sign == NEGATIVE and dot_sign == POSITIVE and excess != POSITIVE
     zero("`snap_full_turn`", field.of(found[0]) - (0.0 if missing else cross), field.of(found[1]) - dot)
     return 1
 
 
 def without_tolerance_nothing_is_snapped(cross_sign: Possible, dot_sign: Possible) -> int:
-    """Without a tolerance `snap_full_turn` changes nothing where the radius is not 0; the number of cases."""
+    """With an `arc_tolerance` of 0 `snap_full_turn` changes nothing where the radius is not 0; the number of cases."""
     cross, dot, radius2, field = variables("cross dot radius2")
     field.assume(radius2, POSITIVE)
     field.assume(cross, cross_sign)
     field.assume(dot, dot_sign)
     found = rebinding(field.names())(angles.snap_full_turn)((cross, dot), radius2, field.constant(0.0))
-    zero("`snap_full_turn` without a tolerance", field.of(found[0]) - cross, field.of(found[1]) - dot)
+    zero("`snap_full_turn` with 0", field.of(found[0]) - cross, field.of(found[1]) - dot)
     return 1
 
 

@@ -119,7 +119,7 @@ def table_of(context: Any) -> Table:
 def selection() -> Certainty:
     """Theorem 2: `fastest` compares the words of the text, or words that are the same path, at every state.
 
-    Once where the tolerance is that of rounding alone, and once where a user's tolerance adds the single arcs.
+    Once where `arc_tolerance` is that of rounding alone, and once where a user's adds the single arcs.
     """
     cases = taking_the_faster()
     for exactly in (True, False):
@@ -160,7 +160,7 @@ def check_selection(q: Named, found: set[Described], exactly: bool, signs: Signs
     require(ARC_L not in found or q.outer == 0.0, f"L ends beside the target: signs {signs.chosen}")
     require(ARC_R not in found or (q.inner == 0.0 and q.R > 1.0), f"R ends beside the target: signs {signs.chosen}")
     if not exactly:
-        # Within a tolerance a single arc may also be faster than the words of which it is the limit.
+        # Within `arc_tolerance` a single arc may also be faster than the words of which it is the limit.
         require((q.outer == 0.0) == (ARC_L in found), f"L does not compete: signs {signs.chosen}")
         require((q.inner == 0.0 and q.R > 1.0) == (ARC_R in found), f"R does not compete: signs {signs.chosen}")
     if exactly and q.R == 1.0 and q.y >= 0.0:
@@ -326,7 +326,7 @@ def compared_words(fastest: Callable[[], tuple[Any, Any]]) -> set[Described]:
 
 
 def may_reach(extremal: kernel.Extremal) -> bool:
-    """`reaches` within a tolerance, where a single arc beside its circle reaches the target too.
+    """`reaches` within `arc_tolerance`, where a single arc beside its circle reaches the target too.
 
     There it may be slower than the words of which it is the limit, and must not replace them.
     """

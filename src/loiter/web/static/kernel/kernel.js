@@ -4,7 +4,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: e035a90d83294f18a169c91d5e40662c7fe831aad76214e922badae1728082fa
+ * SHA-256 of the source: 495aee8f417f30124cd847fdbf3cbaedf1d94009756aa99d489aa360c365feaf
  */
 
 // What Python has and JavaScript has not: the first of two that tie, and quotients rounded down. Integers are doubles
@@ -4626,9 +4626,10 @@ export function step_without_zero(value, slope, bend) {
 /**
  * A step within which the excess falls by at most half a turn, and LSR and RSL neither begin nor cease to exist.
  *
- * @type {(u: number, last: number, excess: Excess, limits: Bounds, scene: WindScene, tolerance: number) => number}
+ * @type {(u: number, last: number, excess: Excess, limits: Bounds, scene: WindScene, length_tolerance: number) =>
+ *         number}
  */
-export function step_of_excess(u, last, excess, limits, scene, tolerance) {
+export function step_of_excess(u, last, excess, limits, scene, length_tolerance) {
     let step = limits.step;
     if (limits.speed > 0.0) {
         step = min_real(step, 0.5 * 3.141592653589793 / limits.speed);
@@ -4639,7 +4640,7 @@ export function step_of_excess(u, last, excess, limits, scene, tolerance) {
     const distance = Math.sqrt(max_real(excess.apart + 4.0, 0.0)) + limits.speed * step;
     const bends = bends_of_square(u, distance, limits, scene);
     const low = min_real(bends.down, bends.size), high = min_real(bends.up, bends.size);
-    if (Math.abs(excess.apart) <= tolerance) {
+    if (Math.abs(excess.apart) <= length_tolerance) {
         return min_real(step, max_real(high > 0.0 ? Math.abs(excess.apart_slope) / high : step, DOUBLE_ROOT));
     }
     if (excess.apart > 0.0) {
@@ -4688,14 +4689,14 @@ export function root_of_excess(u, last, a, b, slot, scene) {
 export function first_with_straight(u, last, begin, slot, scene, until_) {
     let pose = begin;
     const none = { phase: 0.0, side: slot.side, path: NO_PATH };
-    const tolerance = 4.0 * scene.arc_tolerance;
+    const length_tolerance = 4.0 * scene.arc_tolerance;
     let excess = excess_at(u, last, pose, slot, scene);
     if (bounds_at(last, pose, slot, scene).speed <= ROUNDING) {
         // The last arc is on the circle itself: the vehicle would have been in the slot before.
         return none;
     }
     let path;
-    if (Math.abs(excess.value) <= tolerance && excess.apart >= -tolerance) {
+    if (Math.abs(excess.value) <= length_tolerance && excess.apart >= -length_tolerance) {
         path = path_with_straight(u, last, pose, scene);
         if (path.time < Infinity) {
             return { phase: slot.phase + pose.width, side: slot.side, path };
@@ -4706,10 +4707,11 @@ export function first_with_straight(u, last, begin, slot, scene, until_) {
             return none;
         }
         const limits = bounds_at(last, pose, slot, scene);
-        const step = step_of_excess(u, last, excess, limits, scene, tolerance);
+        const step = step_of_excess(u, last, excess, limits, scene, length_tolerance);
         const ahead = slot_pose(pose.width + step, slot, scene);
         const excess_ahead = excess_at(u, last, ahead, slot, scene);
-        /** @type {boolean} */ const exists = excess.apart >= -tolerance && excess_ahead.apart >= -tolerance;
+        /** @type {boolean} */ const exists = excess.apart >= -length_tolerance && excess_ahead.apart >=
+                -length_tolerance;
         if (exists && (excess.value >= 0.0 && 0.0 > excess_ahead.value) && excess.value - excess_ahead.value <=
                 3.141592653589793 + 1.0) {
             const root = root_of_excess(u, last, pose, ahead, slot, scene);
@@ -4770,7 +4772,7 @@ export function first_of_three_arcs(u, halves, begin, slot, scene, until_) {
     }
     const origin = slot_pose(0.0, slot, scene);
     let pose = begin;
-    const tolerance = 12.0 * scene.arc_tolerance;
+    const length_tolerance = 12.0 * scene.arc_tolerance;
     const half = 3.141592653589793 * halves - 0.5 * angle(arc_rotation(u, scene.c, scene.s, origin.c, origin.s));
     for (let pass_1 = 0; pass_1 < MOST_STEPS; pass_1++) {
         if (pose.time > until_) {
@@ -4787,7 +4789,7 @@ export function first_of_three_arcs(u, halves, begin, slot, scene, until_) {
         const high = min_real(bends.up + square + 4.0 * limits.speed_change, bends.size + square);
         const spread = distance + 4.0 * sin(0.5 * middle.arc);
         let step;
-        if (Math.abs(middle.value) <= tolerance * (spread + tolerance)) {
+        if (Math.abs(middle.value) <= length_tolerance * (spread + length_tolerance)) {
             const path = path_of_three_arcs(u, middle, pose, scene);
             if (path.time < Infinity) {
                 return { phase: slot.phase + pose.width, side: slot.side, path };
@@ -4849,7 +4851,7 @@ export function arrival_of(found, scene) {
 /**
  * The first arrival in the slot that is at a phase at the time 0; nan, with a status, where there is none.
  *
- * The side of the problem must be 1 or -1. Its tolerance is not used.
+ * The side of the problem must be 1 or -1. The slot is entered exactly.
  *
  * @type {(problem: WindProblem, phase: number) => WindEntry}
  */

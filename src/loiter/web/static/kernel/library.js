@@ -2103,7 +2103,7 @@ problem = placed.problem;
 pose = replace(problem.pose, { altitude_m: asked.start_altitude_m });
 rates = [asked.climb_rate_m_s, asked.descent_rate_m_s];
 uav = replace(problem.aircraft, { climb_rate_m_s: item(rates, 0), descent_rate_m_s: item(rates, 1) });
-return replace(problem, { pose: pose, aircraft: uav, tolerance_m: 0.0 });
+return Problem(pose, problem.orbit, uav, problem.wind);
 }
 
 function leg_instruction(plan) {
@@ -3700,11 +3700,10 @@ const self = this;
 return sum(list(iter(self.pieces)).map((piece) => piece.t));
 }
 get reduced_join() { return cached(this, "reduced_join", () => {
-let join, maneuver, problem;
+let maneuver;
 const self = this;
-[maneuver, problem] = iter([self.maneuver, self.problem]);
-join = Problem(maneuver.join, maneuver.orbit_at_join, maneuver.aircraft, undefined, problem.tolerance_m);
-return join.reduced();
+maneuver = self.maneuver;
+return replace(self.problem, { pose: maneuver.join, orbit: maneuver.orbit_at_join, wind: CALM }).reduced();
 }); }
 get violations() { return cached(this, "violations", () => {
 let e, hamiltonian, lam, last, norm, now, off, piece, psi1, q, sign;
@@ -5654,7 +5653,7 @@ function least_times__in_still_air(trajectory) {
 let R, by_heading, fastest, not_smooth, problem, rounded, side, tolerance, x, y;
 problem = trajectory.problem.reduced();
 [x, y, R, side, tolerance] = iter(problem);
-rounded = max(kernel.rounding(x, y, R), replace(trajectory.problem, { tolerance_m: 0.0 }).reduced().tolerance);
+rounded = kernel.rounding(x, y, R);
 fastest = function (axis, step) {
 return kernel.optimum(add(x, mul(step, eq(axis, 0))), add(y, mul(step, eq(axis, 1))), R, side, tolerance);
 };
@@ -6305,7 +6304,7 @@ return best;
 }
 
 function _path(one) {
-return path_of_length(one.arrival.at(one.time), one.time, one.tolerance);
+return path_of_length(one.arrival.at(one.time), one.time, one.length_tolerance);
 }
 
 function placed_arrival(problem, turn, time_s, bearing_deg) {
@@ -6711,11 +6710,11 @@ best = np.where(ok, np.minimum(best, np.abs(sub(same, mul(chord, np.exp(mul(mul(
 return best;
 }
 
-function path_of_length(ends, wanted, tolerance) {
+function path_of_length(ends, wanted, length_tolerance) {
 let found, path, stretch, turns;
 found = [];
 for (stretch of iter(stretches(ends))) {
-turns = turns_more(stretch, wanted, tolerance);
+turns = turns_more(stretch, wanted, length_tolerance);
 if (ge(turns, 0)) {
 path = path_within(stretch, sub(wanted, mul(TWO_PI, turns)));
 if (le(abs(sub(add(path.length, mul(TWO_PI, turns)), wanted)), mul(SAME_LENGTH, add(1.0, wanted)))) {
@@ -6754,15 +6753,15 @@ this.s = s;
 }, ["c0", "s0", "x", "y", "c", "s"], 'Ends');
 
 const PlacedArrival = struct(class extends Tuple {
-constructor(turn, arrival, time, tolerance) {
+constructor(turn, arrival, time, length_tolerance) {
 super();
 this.turn = turn;
 this.arrival = arrival;
 this.time = time;
-this.tolerance = tolerance;
+this.length_tolerance = length_tolerance;
 
 }
-}, ["turn", "arrival", "time", "tolerance"], 'PlacedArrival');
+}, ["turn", "arrival", "time", "length_tolerance"], 'PlacedArrival');
 
 function* _segments(problem, path) {
 let flown, here, k, letter, now, pieces, r, radius_m, straight, t;
@@ -6965,11 +6964,11 @@ yield Stretch(family, b, a, other, one);
 }
 }
 
-function turns_more(stretch, wanted, tolerance) {
+function turns_more(stretch, wanted, length_tolerance) {
 let short, turns;
-short = sub(sub(wanted, stretch.longest.length), tolerance);
+short = sub(sub(wanted, stretch.longest.length), length_tolerance);
 turns = (gt(short, 0.0) ? math.ceil(div(short, TWO_PI)) : 0);
-return (ge(sub(wanted, mul(TWO_PI, turns)), sub(stretch.shortest.length, tolerance)) ? turns : -1);
+return (ge(sub(wanted, mul(TWO_PI, turns)), sub(stretch.shortest.length, length_tolerance)) ? turns : -1);
 }
 
 function path_within(stretch, wanted) {
@@ -7016,13 +7015,13 @@ yield LeftWord([1.0, -1.0, 1.0], first, add(math.pi, mul(2.0, half)), last);
 }
 
 function* families(ends) {
-let distance, dx, dy, first, last, tolerance;
-tolerance = mul(ROUNDING, add(add(1.0, abs(ends.x)), abs(ends.y)));
+let distance, dx, dy, first, last, length_tolerance;
+length_tolerance = mul(ROUNDING, add(add(1.0, abs(ends.x)), abs(ends.y)));
 for ([first, last] of rows(OUTER_CONTROLS)) {
 dx = sub(mul(neg(first), ends.s0), sub(ends.x, mul(last, ends.s)));
 dy = sub(mul(first, ends.c0), add(ends.y, mul(last, ends.c)));
 distance = kernel.length(dx, dy);
-if ((eq(first, last) || ge(distance, sub(2.0, tolerance)))) {
+if ((eq(first, last) || ge(distance, sub(2.0, length_tolerance)))) {
 yield Family(first, last, ends, distance, math.atan2(dy, dx));
 }
 }

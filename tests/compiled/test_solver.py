@@ -1,22 +1,27 @@
-"""The search in wind as machine code: plain Python's answers to the last bit."""
+"""Single states and scenes in wind by machine code: plain Python's answers to the last bit."""
 
 import os
 import subprocess
 import sys
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from compiled.windy import BAD, drawn
 from golden.wind_scenes import CORNERS, SLOW, VALLEYS
-from loiter.compiled import wind_solver
+from loiter.compiled import solver
+from loiter.kernel.rounding import rounded_radius
+from loiter.kernel.still_air import synthesis
 from loiter.kernel.wind import wind_search
+from strategies import coordinates, radii, sides
 
 
 @pytest.fixture
 def compiled():
     """The machine code."""
-    assert wind_solver.single is not None
-    return wind_solver
+    assert solver.single is not None
+    return solver
 
 
 def text(value):
@@ -41,8 +46,8 @@ def test_the_other_minima_are_those_of_plain_python_to_the_last_bit(compiled):
         for side in (1, -1):
             one = problem._replace(side=side)
             assert text(compiled.local_minima(one)) == text(wind_search.local_minima(one)), one
-        assert text(wind_solver.ranked(problem)) == text(wind_search.ranked(problem))
-        assert text(wind_solver.optima(problem)) == text(wind_search.optima(problem))
+        assert text(solver.ranked(problem)) == text(wind_search.ranked(problem))
+        assert text(solver.optima(problem)) == text(wind_search.optima(problem))
 
 
 def test_a_package_without_machine_code_gives_the_same_plans():
@@ -66,3 +71,22 @@ print(loiter.solve_in_wind([-10.0, float("nan")], 0.0, 0.0, 3.0, "cw", 0.3, 0.0)
     ]
     assert said[0].stdout == said[1].stdout
     assert said[0].stdout.count("\n") == 4
+
+
+@given(coordinates, coordinates, radii, sides, st.sampled_from([0.0, 0.05]))
+def test_in_still_air_it_is_plain_python_to_the_last_bit(x, y, R, side, tolerance):
+    expected = synthesis.optimum(x, y, rounded_radius(R), side, tolerance)
+    assert repr(solver.optimum(x, y, R, side, tolerance)) == repr(expected)
+
+
+@pytest.mark.parametrize("state", [(float("nan"), 0.0, 2.0), (1.0, 0.0, 0.5), (1e300, 0.0, 2.0)])
+def test_there_may_be_nothing_to_solve(monkeypatch, state):
+    assert solver.optimum(*state, 1, 0.0) is None
+    monkeypatch.setattr(solver, "single", None)
+    assert solver.optimum(*state, 1, 0.0) is None
+
+
+def test_without_machine_code_plain_python_solves(monkeypatch):
+    found = solver.optimum(4.0, 0.3, 1.7, 1, 0.0)
+    monkeypatch.setattr(solver, "single", None)
+    assert repr(solver.optimum(4.0, 0.3, 1.7, 1, 0.0)) == repr(found)
