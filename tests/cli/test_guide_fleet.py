@@ -154,7 +154,7 @@ def test_options_that_do_not_fit_are_refused(tmp_path, capsys, options, sentence
 def test_the_airspeed_of_a_fleet_is_needed(tmp_path, capsys):
     table = table_of(tmp_path, "udpout:127.0.0.1:1", header="connect")
     assert main(f"guide --fleet {table} --orbit-lla 47 8 100 --yes".split()) == 2
-    assert "--airspeed is needed with --fleet" in capsys.readouterr().err
+    assert "--airspeed is needed for a fleet" in capsys.readouterr().err
 
 
 # The parts, in simulated time or none.
@@ -240,7 +240,7 @@ def test_a_vehicle_that_a_pilot_takes_out_of_its_slot_is_in_none():
 
 
 def request_of(timeout_s=15.0):
-    return FleetRequest(Orbit(0.0, 0.0, 100.0), FRAME, 18.0, 45.0, None, None, timeout_s, separation_m=50.0)
+    return FleetRequest(GuideRequest(Orbit(0.0, 0.0, 100.0), FRAME, 18.0, 45.0), timeout_s, separation_m=50.0)
 
 
 def fleet_of(*members):

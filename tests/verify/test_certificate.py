@@ -135,7 +135,7 @@ def test_the_papers_admissible_control_breaks_the_maximum_principle():
     losers = candidates(*unit_scene(-0.53, 0.31))
     certificate = certify(next(m for m in losers if m.word == "RL"))
     assert {r.name for r in certificate.failed} == {"sign", "hamiltonian", "psi1", "gradient", "fastest"}
-    assert "NOT VALID, 5 conditions FAILED" in str(certificate)
+    assert "NOT VALID, FAILED: " in str(certificate)
     assert "FAILED (LRL cw is faster)" in str(certificate)
 
 

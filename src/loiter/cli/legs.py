@@ -12,7 +12,7 @@ from rich.console import RenderableType
 
 from loiter.cli import report
 from loiter.cli.numbers import metres_per_second, one
-from loiter.cli.options import AircraftOptions, PictureOptions, output
+from loiter.cli.options import AircraftOptions, Files, PictureOptions
 from loiter.cli.scenes import CheckedFence
 from loiter.cli.sentences import argument_names
 from loiter.cli.status import CHECK_FAILED
@@ -28,28 +28,16 @@ from loiter.writing import write_content
 
 way_out = Group("The way out", sort_key=4)
 
-CLIMB_RATE_HELP, DESCENT_RATE_HELP = "Rate at which it climbs.", "Rate at which it descends."
-ClimbRate = Annotated[
-    float | None,
-    Parameter(group=way_out, converter=one(metres_per_second), metavar="M_PER_S", help=CLIMB_RATE_HELP),
-]
-DescentRate = Annotated[
-    float | None,
-    Parameter(group=way_out, converter=one(metres_per_second), metavar="M_PER_S", help=DESCENT_RATE_HELP),
-]
+_RATE = Parameter(group=way_out, converter=one(metres_per_second), metavar="M_PER_S")
+ClimbRate = Annotated[float | None, _RATE, Parameter(help="Rate at which it climbs.")]
+DescentRate = Annotated[float | None, _RATE, Parameter(help="Rate at which it descends.")]
 Save = Annotated[
-    tuple[Path, ...],
+    Files,
     Parameter(
-        group=output,
-        metavar="FILE",
         help="Write the leg to a file: .kml with its altitudes, .plan or .waypoints as a mission whose loiter ends on "
         "the tangent; may be repeated. Altitudes are above mean sea level.",
     ),
 ]
-AutopilotChoice = Annotated[
-    AutopilotName, Parameter(group=output, help="The autopilot that a mission is for. PX4 takes .plan only.")
-]
-Json = Annotated[bool, Parameter(group=output, help="Print one JSON object.")]
 
 
 class LegOutput(NamedTuple):
@@ -111,7 +99,7 @@ def leg_airspeeds(uav: AircraftOptions, other_m: float | None, argument: str) ->
 
     Raises `InvalidArgument` for an altitude without air of the standard atmosphere.
     """
-    preset = uav.preset()
+    preset = uav.preset
     if uav.altitude is None or other_m is None or uav.indicated(preset) is None or uav.altitude == other_m:
         return LegAirspeeds(uav.aircraft(preset), uav, "")
     with argument_names(altitude_m=argument):
@@ -126,7 +114,9 @@ def _at(uav: AircraftOptions, altitude_m: float) -> AircraftOptions:
     temperature = uav.temperature
     if temperature is not None and uav.altitude is not None:
         temperature -= LAPSE_K_PER_M * (altitude_m - uav.altitude)
-    return replace(uav, altitude=altitude_m, temperature=temperature)
+    moved = replace(uav, altitude=altitude_m, temperature=temperature)
+    vars(moved)["preset"] = uav.preset  # the file is read once
+    return moved
 
 
 def with_rates(aircraft: Aircraft, climb_rate_m_s: float | None, descent_rate_m_s: float | None) -> Aircraft:

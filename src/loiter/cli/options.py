@@ -34,6 +34,7 @@ from loiter.cli.sentences import argument_names
 from loiter.errors import InvalidArgument, positive
 from loiter.geo import LocalFrame, density_altitude_m, true_airspeed
 from loiter.io.missions.altitudes import MEAN_SEA_LEVEL, AltitudeDatum, AltitudeReference
+from loiter.io.missions.items import AutopilotName
 from loiter.planning.model import CALM, Aircraft, Orbit, Turn, TurnName, Wind, circle_radius_m
 from loiter.plot import files
 from loiter.plot.sizes import PictureFormat
@@ -119,6 +120,15 @@ WindChoice = Annotated[
     Parameter(group=air, converter=several(metres_per_second, direction), metavar="SPEED FROM"),
 ]
 Metres = Annotated[float | None, Parameter(converter=one(metres), metavar="METRES")]
+Tolerance = Annotated[float, Parameter(group=scene, converter=one(metres), metavar="METRES")]
+TOLERANCE_HELP = (
+    "A start that is beyond the circle, or beyond the last arc onto it, by up to this many metres counts as on it"
+)
+Files = Annotated[tuple[Path, ...], Parameter(group=output, metavar="FILE")]
+AutopilotChoice = Annotated[
+    AutopilotName, Parameter(group=missions, help="The autopilot that missions are for. PX4 takes .plan only.")
+]
+Json = Annotated[bool, Parameter(group=output, help="Print one JSON object.")]
 
 
 def column_map(group: Group) -> Parameter:
@@ -345,6 +355,7 @@ class AircraftOptions:
         """The options given, as they are written on the command line."""
         return [f"--{field.name.replace('_', '-')}" for field in fields(self) if getattr(self, field.name) is not None]
 
+    @cached_property
     def preset(self) -> Preset | None:
         """The values of the parameter file; None without one."""
         if self.params is None:
@@ -694,14 +705,7 @@ class MissionOptions:
 class PictureOptions:
     """The pictures of a command: their files, their size and their resolution."""
 
-    plot: Annotated[
-        tuple[Path, ...],
-        Parameter(
-            group=output,
-            metavar="FILE",
-            help="Draw a picture to a file: .png, .svg or .pdf; may be repeated.",
-        ),
-    ] = ()
+    plot: Annotated[Files, Parameter(help="Draw a picture to a file: .png, .svg or .pdf; may be repeated.")] = ()
     size: Annotated[
         tuple[float, float] | None,
         Parameter(

@@ -53,7 +53,7 @@ def read_options(
 
     Raises `InvalidArgument` where they are contradictory or incomplete.
     """
-    preset = aircraft.preset()
+    preset = aircraft.preset
     aircraft = aircraft.above_sea(preset, datum)
     pose, circle, frame = place_scene(start, orbit, wind, preset)
     uav = aircraft.aircraft(preset)
@@ -88,7 +88,7 @@ def read_circle(
     datum: AltitudeDatum = MEAN_SEA_LEVEL,
 ) -> CircleRead:
     """What the options describe, without a start; otherwise like `read_options`."""
-    preset = aircraft.preset()
+    preset = aircraft.preset
     aircraft = aircraft.above_sea(preset, datum)
     wind.check_declination()
     circle, frame = orbit.circle(preset)

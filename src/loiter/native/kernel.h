@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: f9998cafb50316b257cbddcf63bc69055c9274174423007feab96efa98e50abd
+ * SHA-256 of the source: 6058865155faab7ac17c1ff323e98e902b160b57c53688ac61d6a1f229968da3
  */
 #ifndef LOITER_KERNEL_H
 #define LOITER_KERNEL_H
@@ -166,14 +166,14 @@ typedef struct { integer words; real earliest, tolerance; } OpenCell;
 
 /* A search for the fastest entry, which `advance_search` continues: its stage, and what is known so far.
  *
- * The sides of the circle that are asked for are `sides`, that which is searched now is `one`. `best` is the
+ * The sides of the circle that are asked for are `sides`, that which is searched now is `side`. `best` is the
  * fastest path found, `beside` the entry beside the circle that counts, too. `visit` is the next cell; `before` the
  * end of the leaf before it, `leaves` those that are left on this side, and `others` on the other one. `corner` is
  * that of the best path, which took the time `compared`, and `visits` the number of cells so far. While there is a
  * refinement, it is continued first; `cell` is the cell that waits for it. `left` is the number of steps that may
  * follow at once, and `entry` the result once the stage is ENDED.
  */
-typedef struct { integer stage, sides, one; WindScene scene; WindCandidate best; EntryBeside beside; CellVisit
+typedef struct { integer stage, sides, side; WindScene scene; WindCandidate best; EntryBeside beside; CellVisit
         visit; LeafEnd before; Leaves leaves, others; Corner corner; real compared; integer visits; Refinement
         refinement; OpenCell cell; integer left; WindEntry entry; } WindSearch;
 
@@ -387,6 +387,9 @@ static const WindCandidate NO_CANDIDATE = {0.0, 0, {INFINITY, 0, 0.0, 0.0, 0.0, 
  * section 6.
  */
 #define WIND_TIE_TOLERANCE 1e-12
+
+/* The arc of the circle that is held for `hold_tolerance`. */
+#define UNKNOWN_ARC 0.0015339807878856412 /* TWO_PI / 4096.0 */
 
 /* In cells within this many half widths of the end of the best path, bounds around that end are tried too. */
 #define NEAR_BEST 8.0
@@ -1627,11 +1630,11 @@ static inline WindSearch begin_search(WindProblem problem) {
             return search;
         }
     }
-    const integer each_one_1[2] = {1, -1};
+    const integer each_side_1[2] = {1, -1};
     for (int i_1 = 0; i_1 < 2; i_1++) {
-        const integer one = each_one_1[i_1];
-        if (problem.side != -one && is_on_circle(one, scene)) {
-            search.best = start_on_circle(one, scene);
+        const integer side = each_side_1[i_1];
+        if (problem.side != -side && is_on_circle(side, scene)) {
+            search.best = start_on_circle(side, scene);
         }
     }
     if (search.best.side != 0) {
@@ -2215,13 +2218,13 @@ static inline CellVisit next_leaf(integer leaf) {
 
 /* The search at the beginning of its next stage, on the other side; the result after the last one. */
 static inline void next_stage(WindSearch *search) {
-    const integer stage = search->stage + 1, one = -search->one;
+    const integer stage = search->stage + 1, side = -search->side;
     if (stage == ENDED) {
         end_search(search);
         return;
     }
     CellVisit visit = FIRST_CELL;
-    if (stage > COARSE_OTHER || search->sides == -one) {
+    if (stage > COARSE_OTHER || search->sides == -side) {
         const integer first = search->others.first, second = search->others.second, third =
                 search->others.third, fourth = search->others.fourth;
         visit = next_leaf((((first | second) | third) | fourth) != 0 ? -1 : shift_left(FIRST_CELLS, LEAF));
@@ -2229,7 +2232,7 @@ static inline void next_stage(WindSearch *search) {
     const Leaves new_1 = search->others;
     const Leaves new_2 = search->leaves;
     search->stage = stage;
-    search->one = one;
+    search->side = side;
     search->visit = visit;
     search->before = NO_LEAF_END;
     search->leaves = new_1;
@@ -2292,7 +2295,7 @@ static inline void refine_path(WindSearch *search) {
     if (search->stage == JOINING) {
         /* The better side is searched first, which shortens the search on the other side. */
         search->best = found;
-        search->one = found.side != 0 ? -found.side : -1;
+        search->side = found.side != 0 ? -found.side : -1;
         if (found.path.time > 0.0) {
             next_stage(search);
             return;
@@ -2328,14 +2331,14 @@ static inline WindCandidate best_of_joins(integer side, WindScene scene, WindCan
 static inline void join_one_side(WindSearch *search) {
     WindCandidate best = search->best;
     const WindScene scene = search->scene;
-    const integer one = search->one;
-    if (search->sides != -one) {
-        best = best_of_joins(one, scene, best);
+    const integer side = search->side;
+    if (search->sides != -side) {
+        best = best_of_joins(side, scene, best);
     }
-    const Refinement refinement = one == 1 ? NO_REFINEMENT : begin_refinement(best, TWO_PI / (real)JOINS, scene);
+    const Refinement refinement = side == 1 ? NO_REFINEMENT : begin_refinement(best, TWO_PI / (real)JOINS, scene);
     const integer new_1 = search->left - 1;
     search->best = best;
-    search->one = -one;
+    search->side = -side;
     search->left = new_1;
     search->refinement = refinement;
     return;
@@ -2878,7 +2881,7 @@ static inline Leaves with_leaf(Leaves leaves, integer number) {
  * Cells are visited in the order of their phases, and halved as long as a word may join inside them early enough.
  */
 static inline void coarse_search(WindSearch *search) {
-    const integer one = search->one;
+    const integer side = search->side;
     const WindScene scene = search->scene;
     const WindCandidate best = search->best;
     CellVisit visit = search->visit;
@@ -2889,10 +2892,10 @@ static inline void coarse_search(WindSearch *search) {
     while (left > 0 && start.path.time == INFINITY && visit.number < shift_left(FIRST_CELLS, visit.level)) {
         left -= 1;
         const real_2 middle_of_1 = middle_of(visit);
-        integer words = words_inside(middle_of_1.a0, middle_of_1.a1, (visit.words & ALL_WORDS), one, scene,
+        integer words = words_inside(middle_of_1.a0, middle_of_1.a1, (visit.words & ALL_WORDS), side, scene,
                 best.path.time);
         if (words != 0 && visit.level >= COARSE) {
-            const integer_LeafEnd_JoinPoint examine_cell_2 = examine_cell(visit, words, one, scene, before, best);
+            const integer_LeafEnd_JoinPoint examine_cell_2 = examine_cell(visit, words, side, scene, before, best);
             words = examine_cell_2.a0;
             before = examine_cell_2.a1;
             start = examine_cell_2.a2;
@@ -2908,7 +2911,7 @@ static inline void coarse_search(WindSearch *search) {
     search->leaves = leaves;
     search->left = left;
     if (start.path.time < INFINITY) {
-        search->refinement = refinement_from(start, one, TWO_PI / (real)shift_left(FIRST_CELLS, LEAF));
+        search->refinement = refinement_from(start, side, TWO_PI / (real)shift_left(FIRST_CELLS, LEAF));
         return;
     }
     if (visit.number < shift_left(FIRST_CELLS, visit.level)) {
@@ -2931,9 +2934,9 @@ static inline real time_tolerance(WindCandidate best, WindScene scene) {
     return WIND_TIE_TOLERANCE * (1.0 + scene.R + best.path.time);
 }
 
-/* The tolerance after `MOST_VISITS` cells: an upper bound on the time to hold the circle through 2 pi/4096. */
+/* The tolerance after `MOST_VISITS` cells: an upper bound on the time to hold the circle through `UNKNOWN_ARC`. */
 static inline real hold_tolerance(WindScene scene) {
-    return scene.R / (1.0 - length(scene.wx, scene.wy)) * (TWO_PI / 4096.0);
+    return scene.R / (1.0 - length(scene.wx, scene.wy)) * UNKNOWN_ARC;
 }
 
 /* The two arcs of which the best path consists, up to rounding; `NO_CORNER` for another path. */
@@ -3134,7 +3137,7 @@ static inline real_WindCandidate compare_at_end(CellVisit visit, integer side, W
 
 /* The search after cells inside the leaves of one side that are left, until a path has to be refined. */
 static inline void fine_search(WindSearch *search) {
-    const integer one = search->one;
+    const integer side = search->side;
     const WindScene scene = search->scene;
     const WindCandidate best = search->best;
     const Leaves leaves = search->leaves;
@@ -3154,8 +3157,9 @@ static inline void fine_search(WindSearch *search) {
         const real tolerance = visits <= MOST_VISITS ? time_tolerance(best, scene) : hold_tolerance(scene);
         const real sooner = best.path.time - tolerance;
         const real_2 middle_of_1 = middle_of(visit);
-        integer words = words_inside(middle_of_1.a0, middle_of_1.a1, (visit.words & ALL_WORDS), one, scene, sooner);
-        if (words != 0 && one == best.side) {
+        integer words = words_inside(middle_of_1.a0, middle_of_1.a1, (visit.words & ALL_WORDS), side, scene,
+                sooner);
+        if (words != 0 && side == best.side) {
             if (best.path.time < compared) {
                 corner = corner_of(best, scene);
                 compared = best.path.time;
@@ -3163,7 +3167,7 @@ static inline void fine_search(WindSearch *search) {
             words = words_beside_best(visit, words, scene, best, corner, sooner);
         }
         if (words != 0 && integer_modulo(LAST - visit.level, 2) == 0 && visit.level > LEAF) {
-            const real_WindCandidate compare_at_end_2 = compare_at_end(visit, one, scene, best);
+            const real_WindCandidate compare_at_end_2 = compare_at_end(visit, side, scene, best);
             const real earliest = compare_at_end_2.a0;
             start = compare_at_end_2.a1;
             cell = (OpenCell){words, earliest, tolerance};

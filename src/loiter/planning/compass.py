@@ -3,7 +3,7 @@
 The functions have no branches, so that they accept arrays; those that call `math` need `kernel.rebinding.rebound`.
 """
 
-from math import cos, degrees, floor, fmod, radians, sin
+from math import atan2, cos, degrees, floor, fmod, radians, sin
 from typing import Any
 
 
@@ -22,6 +22,11 @@ def heading_vector(heading_deg: float) -> tuple[float, float]:
     sq, cq = odd - 2.0 * odd * flip, (1.0 - odd) * (1.0 - 2.0 * flip)
     s, c = sin(rest), cos(rest)
     return sq * c + cq * s, cq * c - sq * s
+
+
+def heading_of(east: float, north: float) -> float:
+    """The heading of a vector, in [0, 360)."""
+    return wrapped(degrees(atan2(east, north)))
 
 
 def heading_after(heading_deg: Any, turned: Any) -> Any:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import atan2, degrees, pi
+from math import pi
 from typing import TYPE_CHECKING, NamedTuple
 
 from loiter.errors import InvalidArgument, positive
 from loiter.kernel.wind.hold import hold_pose, hold_rate, phase_of
-from loiter.planning.compass import heading_vector, wrapped
+from loiter.planning.compass import heading_of, heading_vector, wrapped
 from loiter.planning.flight import over_ground
 from loiter.planning.model import (
     CALM,
@@ -104,10 +104,10 @@ class Hold:
         r, side = self.aircraft.turn_radius_m, SIDES[self.turn]
         scene = radius_in_turns(self.orbit, self.aircraft), *relative_wind(self.orbit, self.aircraft, self.wind)
         x, y, c, s, _ = hold_pose(phase, side, *scene)
-        heading_deg = wrapped(degrees(atan2(c, s)))
+        heading_deg = heading_of(c, s)
         track_deg, speed = over_ground(heading_deg, self.aircraft, self.wind)
         bank_deg = self.aircraft.bank_deg(r / hold_rate(phase, side, *scene))
-        return HoldPoint(wrapped(degrees(atan2(x, y))), heading_deg, track_deg, speed, bank_deg)
+        return HoldPoint(heading_of(x, y), heading_deg, track_deg, speed, bank_deg)
 
 
 def hold(orbit: Orbit, aircraft: Aircraft, wind: Wind | None = None, *, turn: Turn | TurnName | None = None) -> Hold:

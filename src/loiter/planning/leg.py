@@ -15,7 +15,7 @@ from loiter.kernel.wind.paths import WindScene
 from loiter.kernel.wind.way_out import Exit, WayOut, entry_before, exit_point, least_width, soonest_exit
 from loiter.kernel.wind.wind_search import scene_of
 from loiter.planning.arrival import arrival_in
-from loiter.planning.compass import wrapped
+from loiter.planning.compass import heading_of
 from loiter.planning.maneuver import MAX_SAMPLES, Maneuver, decimals_of, maneuver_values, pose_values
 from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, Wind, radius_in_turns, relative_wind
 from loiter.planning.problem import Problem
@@ -259,7 +259,7 @@ def hold_states(plan: LegPlan, shares: Sequence[float]) -> list[HoldState]:
         phase = last - (1.0 - share) * width
         x, y, c, s, _ = hold_pose(phase, side, R, wx, wy)
         time_s = plan.entry.duration_s + time_held(phase, share * width, R, wx, wy) * (r / aircraft.airspeed_m_s)
-        heading_deg = wrapped(degrees(atan2(c, s)))
+        heading_deg = heading_of(c, s)
         states.append(HoldState(time_s, orbit.east_m + r * x, orbit.north_m + r * y, heading_deg))
     return states
 
@@ -303,7 +303,7 @@ def _check_length(out: WayOut, scene: WindScene) -> None:
 
 def _exit_pose(orbit: Orbit, out: WayOut, scene: WindScene, r: float) -> Pose:
     x, y, c, s, _ = hold_pose(out.phase, out.side, scene.R, scene.wx, scene.wy)
-    return Pose(orbit.east_m + r * x, orbit.north_m + r * y, wrapped(degrees(atan2(c, s))))
+    return Pose(orbit.east_m + r * x, orbit.north_m + r * y, heading_of(c, s))
 
 
 def climb_time_s(leg: Leg, aircraft: Aircraft) -> float:

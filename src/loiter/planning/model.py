@@ -23,7 +23,7 @@ from loiter.kernel.wind import wind_search
 from loiter.kernel.wind.hold import tightest_radius
 from loiter.kernel.wind.wind_search import WindProblem
 from loiter.kernel.words import Side
-from loiter.planning.compass import heading_vector, wrapped
+from loiter.planning.compass import heading_of, heading_vector
 from loiter.planning.units import KNOT
 
 if TYPE_CHECKING:
@@ -265,7 +265,7 @@ CALM = Wind(0.0, 0.0)
 
 def wind_from_velocity(east_m_s: float, north_m_s: float) -> Wind:
     """The wind whose air has a velocity over the ground, metres per second towards the east and the north."""
-    return Wind(hypot(east_m_s, north_m_s), wrapped(degrees(atan2(-east_m_s, -north_m_s))))
+    return Wind(hypot(east_m_s, north_m_s), heading_of(-east_m_s, -north_m_s))
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import atan2, degrees, fmod, isfinite
+from math import fmod, isfinite
 from typing import TYPE_CHECKING
 
 from loiter.errors import OutOfRange, number
@@ -11,7 +11,7 @@ from loiter.kernel.angles import TWO_PI
 from loiter.kernel.wind.held import time_held, width_held
 from loiter.kernel.wind.hold import hold_pose, phase_of
 from loiter.kernel.wind.wind_search import WindProblem
-from loiter.planning.compass import heading_vector, wrapped
+from loiter.planning.compass import heading_of, heading_vector
 from loiter.planning.model import Pose
 
 if TYPE_CHECKING:
@@ -67,4 +67,4 @@ def slot_pose(slot: Slot, problem: Problem, time_s: float) -> Pose:
     phase = phase_at_start(then, given, problem.time_unit_s)
     x, y, c, s, _ = hold_pose(phase, given.side, given.R, given.wx, given.wy)
     east, north = problem.orbit.centre_after(time_s)
-    return Pose(east + r * x, north + r * y, wrapped(degrees(atan2(c, s))))
+    return Pose(east + r * x, north + r * y, heading_of(c, s))

@@ -272,7 +272,7 @@ def _plain(residual: Residual) -> dict[str, object]:
 
 def _head(certificate: Certificate) -> list[str]:
     maneuver = certificate.maneuver
-    verdict = "valid" if certificate.valid else f"NOT VALID, {len(certificate.failed)} conditions FAILED"
+    verdict = "valid" if certificate.valid else f"NOT VALID, FAILED: {', '.join(r.name for r in certificate.failed)}"
     lines = [f"Certificate of {maneuver.word or 'a start on the circle'}, {Turn(maneuver.turn).described}: {verdict}."]
     if certificate.valid:
         lines.append(certificate.claim)

@@ -16,11 +16,12 @@ from rich.table import Column
 from rich.text import Text
 
 import loiter
-from loiter.cli.legs import CLIMB_RATE_HELP, DESCENT_RATE_HELP
-from loiter.cli.numbers import check_declination, column_mapping, metres, metres_per_second, one, whole
+from loiter.cli.legs import ClimbRate, DescentRate
+from loiter.cli.numbers import check_declination, column_mapping, whole
 from loiter.cli.options import (
     CIRCLE_DEGREES,
     CIRCLE_METRES,
+    TOLERANCE_HELP,
     TURN_HELP,
     VELOCITY,
     WIND_HELP,
@@ -28,6 +29,10 @@ from loiter.cli.options import (
     Bank,
     BatchFenceOptions,
     DeclinationDegrees,
+    Json,
+    SlotBearing,
+    SlotTime,
+    Tolerance,
     TurnChoice,
     TurnRadius,
     TurnRate,
@@ -93,49 +98,24 @@ def batch(
     turn_rate: Annotated[TurnRate, Parameter(group=shared)] = None,
     wind: Annotated[WindChoice, Parameter(group=shared, help=f"{WIND_HELP}; still air if absent.")] = None,
     declination: Annotated[DeclinationDegrees, Parameter(group=shared)] = None,
-    climb_rate: Annotated[
-        float | None,
-        Parameter(group=shared, converter=one(metres_per_second), metavar="M_PER_S", help=CLIMB_RATE_HELP),
-    ] = None,
-    descent_rate: Annotated[
-        float | None,
-        Parameter(group=shared, converter=one(metres_per_second), metavar="M_PER_S", help=DESCENT_RATE_HELP),
-    ] = None,
+    climb_rate: Annotated[ClimbRate, Parameter(group=shared)] = None,
+    descent_rate: Annotated[DescentRate, Parameter(group=shared)] = None,
     orbit_velocity: Annotated[
         tuple[float, float] | None,
         VELOCITY,
         Parameter(group=shared, help="Velocity of the circle over the ground, metres per second; at rest if absent."),
     ] = None,
     slot: Annotated[
-        float | None,
+        SlotBearing,
         Parameter(
             group=shared,
-            metavar="DEGREES",
             help="Enter the slot that is at this bearing from the centre, as in loiter plan; without it, or a column slot_phase_deg, entries are free.",
         ),
     ] = None,
-    slot_at: Annotated[
-        float | None,
-        Parameter(
-            group=shared,
-            metavar="SECONDS",
-            help="The time from the start at which the slot is at that bearing; 0 if absent.",
-        ),
-    ] = None,
-    map_: Annotated[
-        list[str] | None,
-        column_map(shared),
-    ] = None,
+    slot_at: Annotated[SlotTime, Parameter(group=shared)] = None,
+    map_: Annotated[list[str] | None, column_map(shared)] = None,
     fence: BatchFenceOptions = BatchFenceOptions(),
-    tolerance: Annotated[
-        float,
-        Parameter(
-            group=work,
-            converter=one(metres),
-            metavar="METRES",
-            help="A start that is beyond the circle, or beyond the last arc onto it, by up to this many metres counts as on it, as in loiter plan.",
-        ),
-    ] = 0.0,
+    tolerance: Annotated[Tolerance, Parameter(group=work, help=f"{TOLERANCE_HELP}, as in loiter plan.")] = 0.0,
     workers: Annotated[
         int | None,
         Parameter(
@@ -162,7 +142,7 @@ def batch(
         ),
     ] = None,
     json: Annotated[
-        bool, Parameter(group=work, help="Print one JSON object at the end: the numbers of rows, and of each status.")
+        Json, Parameter(group=work, help="Print one JSON object at the end: the numbers of rows, and of each status.")
     ] = False,
 ) -> None:
     """Plan the fastest entry of every row of a table."""

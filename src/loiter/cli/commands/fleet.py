@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import atan2, degrees
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, NamedTuple
 
@@ -15,14 +14,16 @@ from rich.table import Table
 from loiter.cli import report
 from loiter.cli.numbers import column_mapping, metres, one
 from loiter.cli.options import (
+    AutopilotChoice,
+    Files,
     Fit,
+    Json,
     MissionOptions,
     OrbitOptions,
     PictureOptions,
     PlannedAircraftOptions,
     WindOptions,
     column_map,
-    missions,
     output,
     scene,
 )
@@ -31,7 +32,7 @@ from loiter.cli.sentences import argument_names
 from loiter.errors import InvalidArgument, positive
 from loiter.io.files import FILE_FORMATS, SaveArguments, check_format, fleet_contents, is_mission
 from loiter.io.missions.items import AUTOPILOTS, AutopilotName
-from loiter.planning.compass import wrapped
+from loiter.planning.compass import heading_of
 from loiter.planning.fleet import FleetPlan, slot_tracks
 from loiter.planning.fleet import fleet as plan_fleet
 from loiter.planning.maneuver import decimals_of
@@ -81,18 +82,11 @@ Animate = Annotated[
 ]
 SAVED = [str(known) for known in FILE_FORMATS if known.kind != "table"]
 Save = Annotated[
-    tuple[Path, ...],
+    Files,
     Parameter(
-        group=output,
-        metavar="FILE",
         help=f"Write the plan to a file: {', '.join(SAVED)}; may be repeated. A map has all aircraft; a mission is written for each, FILE-NAME.plan.",
     ),
 ]
-AutopilotChoice = Annotated[
-    AutopilotName,
-    Parameter(group=missions, help="The autopilot that missions are for. PX4 takes .plan only."),
-]
-Json = Annotated[bool, Parameter(group=output, help="Print one JSON object.")]
 
 
 @Parameter(name="*")
@@ -174,7 +168,7 @@ class ShownFleet(NamedTuple):
         first, *_ = self.plan.entries
         centre = complex(first.orbit.east_m, first.orbit.north_m)
         places = (slot_tracks(self.plan, np.array([0.0]))[:, 0] - centre).tolist()
-        return [wrapped(degrees(atan2(place.real, place.imag))) for place in places]
+        return [heading_of(place.real, place.imag) for place in places]
 
     def document(self) -> dict[str, object]:
         """The plan as plain values for JSON, with names, bearings and heights."""

@@ -20,7 +20,9 @@ from loiter.cli.commands.replay import replay as show_log
 from loiter.cli.numbers import whole
 from loiter.cli.options import (
     AircraftOptions,
+    Files,
     FlownFenceOptions,
+    Json,
     OrbitOptions,
     Output,
     PictureOptions,
@@ -29,7 +31,6 @@ from loiter.cli.options import (
     SlotTime,
     StartOptions,
     WindOptions,
-    output,
 )
 from loiter.cli.scenes import CheckedFence, check_fence, place_scene, read_slot
 from loiter.errors import InvalidArgument, clause
@@ -58,20 +59,12 @@ AIRFRAME, GUST = "aerosonde", 0.05
 simulation = Group("Simulation", sort_key=0)
 
 
-Json = Annotated[
-    bool,
-    Parameter(
-        group=output,
-        help="Print one JSON object: the fastest entry and each law's flight, or summaries of many flights.",
-    ),
+FlyJson = Annotated[
+    Json,
+    Parameter(help="Print one JSON object: the fastest entry and each law's flight, or summaries of many flights."),
 ]
 Save = Annotated[
-    tuple[Path, ...],
-    Parameter(
-        group=output,
-        metavar="FILE",
-        help="Write a .csv: each step of one flight, or a row for each of many; may be repeated.",
-    ),
+    Files, Parameter(help="Write a .csv: each step of one flight, or a row for each of many; may be repeated.")
 ]
 
 
@@ -201,7 +194,7 @@ class SimulationOptions:
     def aircraft(self, uav: AircraftOptions) -> Aircraft:
         """The aircraft of the options, or that of the airframe, which has its own airspeed and bank limit."""
         if self.sim != "jsbsim":
-            return uav.aircraft(uav.preset())
+            return uav.aircraft(uav.preset)
         if given := uav.names_given:
             raise InvalidArgument("sim", f"jsbsim flies an airframe with its own limits: {given[0]} has no effect")
         return self._airframe().aircraft
@@ -275,7 +268,7 @@ def fly(
     uav: AircraftOptions = AircraftOptions(),
     air: WindOptions = WindOptions(),
     fence: FlownFenceOptions = FlownFenceOptions(),
-    json: Json = False,
+    json: FlyJson = False,
     pictures: PictureOptions = PictureOptions(),
     save: Save = (),
 ) -> None:
@@ -289,7 +282,7 @@ def fly(
     simulated.check()
     _check_files(wanted, simulated.runs)
     if simulated.runs is None:
-        pose, orbit, frame = place_scene(start, circle, air, uav.preset())
+        pose, orbit, frame = place_scene(start, circle, air, uav.preset)
         aimed = slotted.slot_for(simulated)
         if aimed and fence.fence is not None:
             raise InvalidArgument("fence", "does not go with --slot")

@@ -135,23 +135,21 @@ def guide(
     if fleet is not None:
         from loiter.cli.commands.guide_fleet import FleetOutput, guide_fleet
         from loiter.mavlink.guiding.fleet import FleetRequest
+        from loiter.mavlink.guiding.preparation import GuideRequest
 
-        if uav.airspeed is None:
-            raise InvalidArgument("airspeed_m_s", "is needed with --fleet: the slots move with it")
-        request = FleetRequest(
+        each = GuideRequest(
             orbit=orbit,
             frame=frame,
             airspeed_m_s=uav.airspeed,
             max_bank_deg=uav.bank,
             wind=wind,
             altitude_m=altitude_m,
-            timeout_s=timeout,
-            slot_band=BAND if slot_band is None else slot_band,
             accept_fly_away=accept_fly_away,
-            resume=resume,
-            separation_m=separation or 0.0,
+            slot_band=BAND if slot_band is None else slot_band,
         )
-        return guide_fleet(fleet, request, FleetOutput(None if yes or dry_run else _question(), dry_run, every, json))
+        question = None if yes or dry_run else _question()
+        request = FleetRequest(each, timeout, resume, 0.0 if separation is None else separation)
+        return guide_fleet(fleet, request, FleetOutput(question, dry_run, every, json))
     if connect is None:
         raise InvalidArgument("connection", "is needed, or --fleet for several vehicles")
     reports = loiter.mavlink.guide(

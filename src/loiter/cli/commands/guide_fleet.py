@@ -66,19 +66,24 @@ def guide_fleet(table: Path, request: FleetRequest, output: FleetOutput) -> int:
             raise LinkFailed("standard output was closed: guiding has stopped") from None
         settled = fleet.settled
         fleet.stop()
-        output.write(*(f"{each.vehicle.name}: {each.ended.sentence}" for each in fleet.members if each.ended))
+        for each in fleet.members:
+            if each.ended is not None and each.vehicle.name not in flight.told:
+                output.write(f"{each.vehicle.name}: {each.ended.sentence}")
     if output.json:
         report.print_json(flight.document(planned, settled=settled))
     return 0 if settled or output.dry_run else LINK_FAILED
 
 
 class _FleetFlight:
-    """The steps of the program: the vehicles are prepared, planned for, asked about and followed."""
+    """The steps of the program: the vehicles are prepared, planned for, asked about and followed.
+
+    `told` has the names of those of which it was said why they are not guided any more.
+    """
 
     def __init__(self, fleet: GuidedFleet, output: FleetOutput, signals: list[int]) -> None:
         self._fleet, self._output, self._signals = fleet, output, signals
         self._names = tuple(member.vehicle.name for member in fleet.members)
-        self._told: set[str] = set()
+        self.told: set[str] = set()
 
     def plan(self) -> ShownFleet | None:
         """The plan that is begun, once it is confirmed; None after a signal. In a dry run it is not begun."""
@@ -87,7 +92,7 @@ class _FleetFlight:
             if self._signals:
                 return None
         self._write_notices()
-        shown, at_s = self._show(self._fleet.request.orbit)
+        shown, at_s = self._show(self._fleet.request.each.orbit)
         if self._output.dry_run:
             return shown
         if self._output.question is not None:
@@ -137,8 +142,8 @@ class _FleetFlight:
         """Say once of each vehicle that is not guided any more why, and what becomes of the others."""
         for member in self._fleet.members:
             name = member.vehicle.name
-            if member.fault and name not in self._told:
-                self._told.add(name)
+            if member.fault and name not in self.told:
+                self.told.add(name)
                 others = "the others fly on" if self._fleet.flying else "no other is guided any more"
                 self._output.write(
                     f"{name}: {member.fault}",

@@ -8,10 +8,12 @@ from typing import Annotated
 from cyclopts import Group, Parameter
 
 from loiter.cli.coordinates import latitude, longitude
-from loiter.cli.legs import AutopilotChoice, ClimbRate, DescentRate, Json, LegOutput, Save, leg_airspeeds, with_rates
+from loiter.cli.legs import ClimbRate, DescentRate, LegOutput, Save, leg_airspeeds, with_rates
 from loiter.cli.numbers import altitude, angle, check_declination, direction, metres, one, several, turn_name
 from loiter.cli.options import (
     AircraftOptions,
+    AutopilotChoice,
+    Json,
     LegFenceOptions,
     PictureOptions,
     StartOptions,
@@ -112,7 +114,7 @@ def land(
     pictures: PictureOptions = PictureOptions(),
 ) -> int:
     """Plan the fastest landing by a circle beside the final approach."""
-    shown, preset = LegOutput(save, autopilot, json, pictures), uav.preset()
+    shown, preset = LegOutput(save, autopilot, json, pictures), uav.preset
     shown.check()
     if uav.altitude is None:
         raise InvalidArgument("altitude_m", "is needed: it is the altitude at the start")

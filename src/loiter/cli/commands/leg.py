@@ -8,21 +8,13 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from loiter.cli.coordinates import latitude, longitude
-from loiter.cli.legs import (
-    AutopilotChoice,
-    ClimbRate,
-    DescentRate,
-    Json,
-    LegOutput,
-    Save,
-    leg_airspeeds,
-    way_out,
-    with_rates,
-)
+from loiter.cli.legs import ClimbRate, DescentRate, LegOutput, Save, leg_airspeeds, way_out, with_rates
 from loiter.cli.numbers import altitude, metres, one, several
 from loiter.cli.options import (
     AircraftOptions,
+    AutopilotChoice,
     Fit,
+    Json,
     LegFenceOptions,
     OrbitOptions,
     PictureOptions,

@@ -255,7 +255,7 @@ def watch(
     if not circle.placed:
         raise InvalidArgument("orbit_lla", "is needed: a vehicle reports its position in degrees")
     air.check_declination()
-    preset = uav.preset()
+    preset = uav.preset
     orbit, frame = circle.circle(preset)
     assert frame is not None  # the circle is in degrees
     if reports is not None and reports < 1:

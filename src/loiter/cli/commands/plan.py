@@ -14,11 +14,13 @@ from rich.console import RenderableType
 
 import loiter
 from loiter.cli import certificates, report
-from loiter.cli.numbers import metres, one
 from loiter.cli.options import (
+    TOLERANCE_HELP,
     AircraftOptions,
     FenceOptions,
+    Files,
     Fit,
+    Json,
     MissionOptions,
     OrbitOptions,
     PictureOptions,
@@ -26,6 +28,7 @@ from loiter.cli.options import (
     SlotBearing,
     SlotTime,
     StartOptions,
+    Tolerance,
     WindOptions,
     missions,
     output,
@@ -53,15 +56,6 @@ from loiter.writing import write_content
 Check = Callable[[Maneuver], Certificate]
 
 # The options of the command, in the order of its help.
-Tolerance = Annotated[
-    float,
-    Parameter(
-        group=scene,
-        converter=one(metres),
-        metavar="METRES",
-        help="A start that is beyond the circle, or beyond the last arc onto it, by up to this many metres counts as on it, so that noise does not add a full turn.",
-    ),
-]
 Lead = Annotated[
     float,
     Parameter(
@@ -87,11 +81,10 @@ ArrivalBearing = Annotated[
     ),
 ]
 All = Annotated[bool, Parameter(name="--all", group=output, help="Show every optimal maneuver, where several tie.")]
-Json = Annotated[
-    bool,
+PlanJson = Annotated[
+    Json,
     Parameter(
-        group=output,
-        help="Print one JSON object; its alternatives hold the other optimal maneuvers and the slower extremals.",
+        help="Print one JSON object; its alternatives hold the other optimal maneuvers and the slower extremals."
     ),
 ]
 Certify = Annotated[
@@ -102,14 +95,10 @@ Certify = Annotated[
     ),
 ]
 Save = Annotated[
-    tuple[Path, ...],
-    Parameter(
-        group=output,
-        metavar="FILE",
-        help=f"Write the maneuver to a file: {', '.join(map(str, FILE_FORMATS))}; may be repeated.",
-    ),
+    Files,
+    Parameter(help=f"Write the maneuver to a file: {', '.join(map(str, FILE_FORMATS))}; may be repeated."),
 ]
-AutopilotChoice = Annotated[
+AutopilotOrPreset = Annotated[
     AutopilotName | None,
     Parameter(
         group=missions,
@@ -126,19 +115,19 @@ def plan(
     air: WindOptions = WindOptions(),
     fence: FenceOptions = FenceOptions(),
     fit: Fit = False,
-    tolerance: Tolerance = 0.0,
+    tolerance: Annotated[Tolerance, Parameter(help=f"{TOLERANCE_HELP}, so that noise does not add a full turn.")] = 0.0,
     lead: Lead = 0.0,
     slot: SlotBearing = None,
     slot_at: SlotTime = None,
     arrive: ArrivalTime = None,
     bearing: ArrivalBearing = None,
     all_: All = False,
-    json: Json = False,
+    json: PlanJson = False,
     pictures: PictureOptions = PictureOptions(),
     certify: Certify = False,
     save: Save = (),
     waypoints: MissionOptions = MissionOptions(),
-    autopilot: AutopilotChoice = None,
+    autopilot: AutopilotOrPreset = None,
 ) -> int:
     """Plan the fastest entry onto a holding circle: which turns to fly, for how long, and where to peel off."""
     (problem, frame), remark = read_options(start, circle, uav, air, fit=fit, datum=waypoints.datum(circle.site))
@@ -237,7 +226,7 @@ def _drawn(fenced: CheckedFence | None) -> dict[str, Any]:
 
 def _target(autopilot: AutopilotName | None, uav: AircraftOptions) -> Autopilot:
     """The autopilot that missions are for: that of the option, or of the parameter file, or ArduPilot."""
-    preset = uav.preset()
+    preset = uav.preset
     if autopilot is not None or preset is None:
         return AUTOPILOTS[autopilot or "ardupilot"]
     return preset.autopilot

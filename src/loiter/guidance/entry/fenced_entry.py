@@ -7,7 +7,7 @@ from collections.abc import Callable
 from concurrent.futures import Future, ProcessPoolExecutor
 from contextlib import suppress
 from functools import cache
-from math import atan2, degrees, inf
+from math import inf
 from multiprocessing import get_context
 from typing import Any, NamedTuple
 
@@ -30,7 +30,7 @@ from loiter.guidance.entry.route import (
 from loiter.guidance.protocol import Command, State
 from loiter.kernel.angles import length
 from loiter.kernel.words import ABSENT, Side
-from loiter.planning.compass import wrapped
+from loiter.planning.compass import heading_of
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CONTROLS, Aircraft, Orbit, Pose, Segment, Wind, wind_from_velocity
 from loiter.planning.scaling import segment
@@ -160,7 +160,7 @@ class FencedEntry(LoiterEntry):
     def _here(self, state: RelativeState) -> Pose:
         """The pose of a state, with the heading of its flight through the air of the plan."""
         vx, vy = self._through_air(state)
-        return Pose(state.x + self._orbit.east_m, state.y + self._orbit.north_m, wrapped(degrees(atan2(vx, vy))))
+        return Pose(state.x + self._orbit.east_m, state.y + self._orbit.north_m, heading_of(vx, vy))
 
     def _through_air(self, state: RelativeState) -> tuple[float, float]:
         limits = self._memory.sensing.limits

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from math import atan2, degrees, radians
+from math import radians
 
 from loiter.errors import not_negative
 from loiter.guidance.protocol import Command, State
 from loiter.guidance.vehicle.limits import clip
 from loiter.guidance.vehicle.turning import PlanarPose, bank_at_rate, constant_turn
-from loiter.planning.compass import heading_vector, wrapped
+from loiter.planning.compass import heading_of, heading_vector
 from loiter.planning.model import CALM, Aircraft, Pose, Wind
 
 
@@ -29,7 +29,7 @@ class Kinematic:
         """The true state."""
         V, (x, y, c, s), (e, n) = self._airspeed_m_s, self._pose, self._wind
         bank_deg = bank_at_rate(-self._rate, V)
-        return State(self._time_s, x, y, wrapped(degrees(atan2(c, s))), bank_deg, V * c + e, V * s + n, V)
+        return State(self._time_s, x, y, heading_of(c, s), bank_deg, V * c + e, V * s + n, V)
 
     def measured_state(self) -> State:
         """The true state: the sensors are exact."""

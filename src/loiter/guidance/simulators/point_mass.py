@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from math import atan2, degrees
-
 import numpy as np
 
 from loiter.errors import not_negative, positive
@@ -14,7 +12,7 @@ from loiter.guidance.simulators.sensors import Noise, Sensors
 from loiter.guidance.vehicle.limits import clip
 from loiter.guidance.vehicle.rolling import Roll
 from loiter.guidance.vehicle.turning import PlanarPose, constant_turn, rate_at_bank
-from loiter.planning.compass import heading_vector, wrapped
+from loiter.planning.compass import heading_of, heading_vector
 from loiter.planning.model import CALM, Aircraft, Pose, Wind
 
 # A typical altitude for a small aircraft to loiter. The scale length of gusts there is 263 m.
@@ -60,7 +58,7 @@ class PointMass:
         """The true state."""
         V, (x, y, c, s) = self._airspeed_m_s, self._pose
         e, n = self._air_velocity()
-        return State(self._time_s, x, y, wrapped(degrees(atan2(c, s))), self._roll.bank_deg, V * c + e, V * s + n, V)
+        return State(self._time_s, x, y, heading_of(c, s), self._roll.bank_deg, V * c + e, V * s + n, V)
 
     def measured_state(self) -> State:
         """The latest measured state."""

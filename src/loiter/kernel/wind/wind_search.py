@@ -114,7 +114,7 @@ class OpenCell(NamedTuple):
 class WindSearch(NamedTuple):
     """A search for the fastest entry, which `advance_search` continues: its stage, and what is known so far.
 
-    The sides of the circle that are asked for are `sides`, that which is searched now is `one`. `best` is the fastest
+    The sides of the circle that are asked for are `sides`, that which is searched now is `side`. `best` is the fastest
     path found, `beside` the entry beside the circle that counts, too. `visit` is the next cell; `before` the end of the
     leaf before it, `leaves` those that are left on this side, and `others` on the other one. `corner` is that of the
     best path, which took the time `compared`, and `visits` the number of cells so far. While there is a refinement, it
@@ -124,7 +124,7 @@ class WindSearch(NamedTuple):
 
     stage: int
     sides: int
-    one: int
+    side: int
     scene: WindScene
     best: WindCandidate
     beside: EntryBeside
@@ -149,7 +149,7 @@ FIRST_CELL, NO_LEAF_END = CellVisit(0, 0, ALL_WORDS), LeafEnd(-2, NO_POINT)
 NO_SEARCH = WindSearch(
     stage=JOINING,
     sides=0,
-    one=1,
+    side=1,
     scene=WindScene(0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0),
     best=NO_CANDIDATE,
     beside=NO_ENTRY_BESIDE,
@@ -184,6 +184,9 @@ LEAVES = FIRST_CELLS << (LEAF - 2)
 # After so many cells of the level `LEAF` and below, the tolerance is `hold_tolerance`. More are needed only in
 # degenerate scenes, some of those in still air with R = 1 or 2; the slowest others found take some 2,500.
 MOST_VISITS = 4096
+
+# The arc of the circle that is held for `hold_tolerance`.
+UNKNOWN_ARC = TWO_PI / 4096.0
 
 # In cells within this many half widths of the end of the best path, bounds around that end are tried too.
 NEAR_BEST = 8.0
@@ -254,9 +257,9 @@ def begin_search(problem: WindProblem) -> WindSearch:
         entry, phase, miss = search.beside
         if entry.t1 == 0.0:
             return search._replace(stage=ENDED, entry=entry_at(entry, phase, miss, scene))
-    for one in (1, -1):
-        if problem.side != -one and is_on_circle(one, scene):
-            search = search._replace(best=start_on_circle(one, scene))
+    for side in (1, -1):
+        if problem.side != -side and is_on_circle(side, scene):
+            search = search._replace(best=start_on_circle(side, scene))
     if search.best.side != 0:
         return end_search(search)
     return search
@@ -279,11 +282,11 @@ def advance_search(search: WindSearch, steps: int) -> WindSearch:
 
 def join_one_side(search: WindSearch) -> WindSearch:
     """The search with the points of joining on one side tried; then the best path is refined."""
-    best, scene, one = search.best, search.scene, search.one
-    if search.sides != -one:
-        best = best_of_joins(one, scene, best)
-    refinement = NO_REFINEMENT if one == 1 else begin_refinement(best, TWO_PI / JOINS, scene)
-    return search._replace(best=best, one=-one, left=search.left - 1, refinement=refinement)
+    best, scene, side = search.best, search.scene, search.side
+    if search.sides != -side:
+        best = best_of_joins(side, scene, best)
+    refinement = NO_REFINEMENT if side == 1 else begin_refinement(best, TWO_PI / JOINS, scene)
+    return search._replace(best=best, side=-side, left=search.left - 1, refinement=refinement)
 
 
 def refine_path(search: WindSearch) -> WindSearch:
@@ -297,7 +300,7 @@ def refine_path(search: WindSearch) -> WindSearch:
     found, best = minimum_of(refinement), search.best
     if search.stage == JOINING:
         # The better side is searched first, which shortens the search on the other side.
-        search = search._replace(best=found, one=-found.side if found.side != 0 else -1)
+        search = search._replace(best=found, side=-found.side if found.side != 0 else -1)
         return next_stage(search) if found.path.time > 0.0 else end_search(search)
     if search.stage <= COARSE_OTHER:
         return search._replace(best=found if found.path.time < best.path.time else best)
@@ -307,16 +310,16 @@ def refine_path(search: WindSearch) -> WindSearch:
 
 def next_stage(search: WindSearch) -> WindSearch:
     """The search at the beginning of its next stage, on the other side; the result after the last one."""
-    stage, one = search.stage + 1, -search.one
+    stage, side = search.stage + 1, -search.side
     if stage == ENDED:
         return end_search(search)
     visit = FIRST_CELL
-    if stage > COARSE_OTHER or search.sides == -one:
+    if stage > COARSE_OTHER or search.sides == -side:
         first, second, third, fourth = search.others
         visit = next_leaf(-1 if first | second | third | fourth != 0 else FIRST_CELLS << LEAF)
     return search._replace(
         stage=stage,
-        one=one,
+        side=side,
         visit=visit,
         before=NO_LEAF_END,
         leaves=search.others,
@@ -342,25 +345,25 @@ def coarse_search(search: WindSearch) -> WindSearch:
 
     Cells are visited in the order of their phases, and halved as long as a word may join inside them early enough.
     """
-    one, scene, best, visit, before = search.one, search.scene, search.best, search.visit, search.before
+    side, scene, best, visit, before = search.side, search.scene, search.best, search.visit, search.before
     leaves, left, start = search.leaves, search.left, NO_POINT
     while left > 0 and start.path.time == inf and visit.number < FIRST_CELLS << visit.level:
         left -= 1
-        words = words_inside(*middle_of(visit), visit.words & ALL_WORDS, one, scene, best.path.time)
+        words = words_inside(*middle_of(visit), visit.words & ALL_WORDS, side, scene, best.path.time)
         if words != 0 and visit.level >= COARSE:
-            words, before, start = examine_cell(visit, words, one, scene, before, best)
+            words, before, start = examine_cell(visit, words, side, scene, before, best)
             if words != 0 and visit.level == LEAF:
                 leaves, words = with_leaf(leaves, visit.number), 0
         visit = first_half(visit, words) if words != 0 else next_cell(visit)
     search = search._replace(visit=visit, before=before, leaves=leaves, left=left)
     if start.path.time < inf:
-        return search._replace(refinement=refinement_from(start, one, TWO_PI / (FIRST_CELLS << LEAF)))
+        return search._replace(refinement=refinement_from(start, side, TWO_PI / (FIRST_CELLS << LEAF)))
     return search if visit.number < FIRST_CELLS << visit.level else next_stage(search)
 
 
 def fine_search(search: WindSearch) -> WindSearch:
     """The search after cells inside the leaves of one side that are left, until a path has to be refined."""
-    one, scene, best, leaves, visit = search.one, search.scene, search.best, search.leaves, search.visit
+    side, scene, best, leaves, visit = search.side, search.scene, search.best, search.leaves, search.visit
     corner, compared, visits, left = search.corner, search.compared, search.visits, search.left
     start, cell = NO_CANDIDATE, search.cell
     while left > 0 and start.side == 0 and visit.number < FIRST_CELLS << visit.level:
@@ -370,13 +373,13 @@ def fine_search(search: WindSearch) -> WindSearch:
         left, visits = left - 1, visits + 1
         tolerance = time_tolerance(best, scene) if visits <= MOST_VISITS else hold_tolerance(scene)
         sooner = best.path.time - tolerance
-        words = words_inside(*middle_of(visit), visit.words & ALL_WORDS, one, scene, sooner)
-        if words != 0 and one == best.side:
+        words = words_inside(*middle_of(visit), visit.words & ALL_WORDS, side, scene, sooner)
+        if words != 0 and side == best.side:
             if best.path.time < compared:
                 corner, compared = corner_of(best, scene), best.path.time
             words = words_beside_best(visit, words, scene, best, corner, sooner)
         if words != 0 and (LAST - visit.level) % 2 == 0 and visit.level > LEAF:
-            earliest, start = compare_at_end(visit, one, scene, best)
+            earliest, start = compare_at_end(visit, side, scene, best)
             cell = OpenCell(words, earliest, tolerance)
             if start.side == 0 and is_done(visit, cell, best):
                 words = 0
@@ -510,8 +513,8 @@ def time_tolerance(best: WindCandidate, scene: WindScene) -> float:
 
 
 def hold_tolerance(scene: WindScene) -> float:
-    """The tolerance after `MOST_VISITS` cells: an upper bound on the time to hold the circle through 2 pi/4096."""
-    return scene.R / (1.0 - length(scene.wx, scene.wy)) * (TWO_PI / 4096.0)
+    """The tolerance after `MOST_VISITS` cells: an upper bound on the time to hold the circle through `UNKNOWN_ARC`."""
+    return scene.R / (1.0 - length(scene.wx, scene.wy)) * UNKNOWN_ARC
 
 
 def wrap(angle: float) -> float:
@@ -606,7 +609,7 @@ def ranked(problem: WindProblem) -> list[WindEntry]:
     Those of both sides for *either*; the fastest of each side is among them. The list is empty where `fastest` finds
     none. To be called only where `status_of` is OK.
     """
-    sides = [problem._replace(side=one) for one in (1, -1) if problem.side != -one]
+    sides = [problem._replace(side=side) for side in (1, -1) if problem.side != -side]
     found = [fastest(one) for one in sides]
     if any(maneuver.status != Status.OK for maneuver in found):
         return []

@@ -19,14 +19,12 @@ from time import monotonic, time
 from typing import Any, NamedTuple
 
 from loiter.batch.fleets import FleetVehicle
-from loiter.errors import InvalidArgument, LinkFailed, LoiterError, not_negative, positive, share
-from loiter.geo import LocalFrame
-from loiter.guidance.entry.slot_entry import BAND
+from loiter.errors import InvalidArgument, LinkFailed, LoiterError, not_negative
 from loiter.guidance.protocol import State
 from loiter.guidance.vehicle.turning import rate_at_bank
 from loiter.mavlink.connection.dead_reckoning import GroundMotion, motion_after
 from loiter.mavlink.connection.link import check_target
-from loiter.mavlink.guiding.guide import Target, guide_request
+from loiter.mavlink.guiding.guide import Target, checked_request, guide_request
 from loiter.mavlink.guiding.preparation import Assignment, FlightSetup, GuideRequest
 from loiter.mavlink.guiding.report import GuideReport, Stage
 from loiter.planning.compass import wrapped
@@ -57,17 +55,10 @@ STOP_S = 15.0
 
 
 class FleetRequest(NamedTuple):
-    """What the vehicles share, in the terms of `guide`; `separation_m` is the least horizontal distance wanted."""
+    """What the vehicles share: the request of each, with an airspeed, and the least horizontal distance wanted."""
 
-    orbit: Orbit
-    frame: LocalFrame
-    airspeed_m_s: float
-    max_bank_deg: float | None
-    wind: Wind | None
-    altitude_m: float | None
+    each: GuideRequest
     timeout_s: float
-    slot_band: float = BAND
-    accept_fly_away: bool = False
     resume: bool = False
     separation_m: float = 0.0
 
@@ -149,10 +140,9 @@ class Member:
 
 def check_fleet(vehicles: Sequence[FleetVehicle], request: FleetRequest) -> None:
     """Raise `InvalidArgument` for numbers and connections that are none, and for a connection that two cannot share."""
-    positive("airspeed_m_s", request.airspeed_m_s, "metres per second")
-    if request.max_bank_deg is not None:
-        positive("max_bank_deg", request.max_bank_deg, "degrees")
-    share("slot_band", request.slot_band)
+    checked_request(request.each)
+    if request.each.airspeed_m_s is None:
+        raise InvalidArgument("airspeed_m_s", "is needed for a fleet: the slots move with it")
     not_negative("separation_m", request.separation_m, "metres")
     for vehicle in vehicles:
         try:
@@ -265,17 +255,17 @@ class GuidedFleet:
 
     def _plan_from(self, at_s: float, orbit: Orbit) -> FleetPlan:
         """The plan from where the vehicles will be at a Unix time."""
-        r = self.request
+        airspeed_m_s, wind = self.request.each.airspeed_m_s, self.request.each.wind or CALM
+        assert airspeed_m_s is not None  # see `check_fleet`
         waiting = [member.waiting for member in self.members if member.waiting is not None]
-        wind = CALM if r.wind is None else r.wind
-        poses = [pose_at(each, at_s, r.airspeed_m_s, wind) for each in waiting]
-        aircraft = Aircraft(r.airspeed_m_s, max_bank_deg=min(each.bank_limit_deg for each in waiting))
-        return fleet(poses, orbit, aircraft, wind, separation_m=r.separation_m, reserve=RESERVE)
+        poses = [pose_at(each, at_s, airspeed_m_s, wind) for each in waiting]
+        aircraft = Aircraft(airspeed_m_s, max_bank_deg=min(each.bank_limit_deg for each in waiting))
+        return fleet(poses, orbit, aircraft, wind, separation_m=self.request.separation_m, reserve=RESERVE)
 
     def begin(self, plan: FleetPlan, at_s: float) -> None:
         """Send every process its slot; `at_s` is the Unix time of the plan's start. Raises like `check_waiting`."""
         self._hear()
-        orbit = replace(self.request.orbit, turn=plan.turn)
+        orbit = replace(self.request.each.orbit, turn=plan.turn)
         for member, slot in zip(self.members, plan.slots, strict=True):
             with suppress(OSError):
                 member.pipe.send(Assignment(orbit, replace(slot, at_s=slot.at_s + at_s)))
@@ -365,20 +355,7 @@ def fly_vehicle(pipe: Connection, vehicle: FleetVehicle, shared: FleetRequest) -
         if hasattr(signal, name):
             signal.signal(getattr(signal, name), signal.SIG_IGN)
     orders = Orders(pipe)
-    request = GuideRequest(
-        orbit=shared.orbit,
-        frame=shared.frame,
-        airspeed_m_s=shared.airspeed_m_s,
-        max_bank_deg=shared.max_bank_deg,
-        wind=shared.wind,
-        altitude_m=shared.altitude_m,
-        keep=True,
-        dry_run=False,
-        accept_fly_away=shared.accept_fly_away,
-        confirm=None,
-        slot_band=shared.slot_band,
-        assign=orders.assign,
-    )
+    request = shared.each._replace(keep=True, assign=orders.assign)
     target = Target(vehicle.connection, vehicle.system, 1, shared.timeout_s)
     reports = guide_request(target, request, REPORT_S, None, resume=shared.resume)
     try:

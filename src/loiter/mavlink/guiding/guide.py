@@ -94,26 +94,6 @@ def guide(
     """
     check_target(connection, system, component, timeout_s)
     period_s = positive("period_s", period_s, "seconds")
-    if airspeed_m_s is not None:
-        airspeed_m_s = positive("airspeed_m_s", airspeed_m_s, "metres per second")
-    if max_bank_deg is not None:
-        max_bank_deg = positive("max_bank_deg", max_bank_deg, "degrees")
-    if altitude_m is not None:
-        altitude_m = number("altitude_m", altitude_m, "metres")
-    for name, value, kind in (("orbit", orbit, Orbit), ("frame", frame, LocalFrame)):
-        instance(name, value, kind)
-    if wind is not None:
-        instance("wind", wind, Wind)
-    if slot is not None:
-        check_slot(slot, slot_band, orbit, airspeed_m_s)
-        if fence is not None:
-            raise InvalidArgument("fence", "does not go with a slot")
-    if orbit.moves:
-        raise InvalidArgument("orbit", "moves: an autopilot holds only circles at rest")
-    if fence is not None and fence != "vehicle":
-        instance("fence", fence, PlacedFence)
-    if margin_m is not None:
-        margin_m = not_negative("margin_m", margin_m, "metres")
     path = None if log is None else Path(file_path("log", log))
     check_log(path)
     request = GuideRequest(
@@ -133,17 +113,41 @@ def guide(
         slot_band=slot_band,
     )
     target = Target(connection, system, component, timeout_s)
-    return guide_request(target, request, period_s, path, resume=resume)
+    return guide_request(target, checked_request(request), period_s, path, resume=resume)
 
 
-def check_slot(slot: Slot, slot_band: float, orbit: Orbit, airspeed_m_s: float | None) -> None:
-    """Raise `InvalidArgument` for a slot without what defines its motion."""
-    instance("slot", slot, Slot)
-    share("slot_band", slot_band)
-    if orbit.turn == Turn.EITHER:
+def checked_request(request: GuideRequest) -> GuideRequest:
+    """The request, checked; raises `InvalidArgument` for what cannot be guided."""
+    r = request
+    for name, value, kind in (("orbit", r.orbit, Orbit), ("frame", r.frame, LocalFrame)):
+        instance(name, value, kind)
+    for name, given, kind in (("wind", r.wind, Wind), ("slot", r.slot, Slot)):
+        if given is not None:
+            instance(name, given, kind)
+    share("slot_band", r.slot_band)
+    if r.slot is not None:
+        _check_slot(r)
+    if r.orbit.moves:
+        raise InvalidArgument("orbit", "moves: an autopilot holds only circles at rest")
+    if r.fence is not None and r.fence != "vehicle":
+        instance("fence", r.fence, PlacedFence)
+    V, bank_deg, altitude_m, margin_m = r.airspeed_m_s, r.max_bank_deg, r.altitude_m, r.margin_m
+    return r._replace(
+        airspeed_m_s=None if V is None else positive("airspeed_m_s", V, "metres per second"),
+        max_bank_deg=None if bank_deg is None else positive("max_bank_deg", bank_deg, "degrees"),
+        altitude_m=None if altitude_m is None else number("altitude_m", altitude_m, "metres"),
+        margin_m=None if margin_m is None else not_negative("margin_m", margin_m, "metres"),
+    )
+
+
+def _check_slot(request: GuideRequest) -> None:
+    """Raise `InvalidArgument` for a slot without what defines its motion, and for one with a fence."""
+    if request.orbit.turn == Turn.EITHER:
         raise InvalidArgument("turn", "is needed with a slot, which moves cw or ccw")
-    if airspeed_m_s is None:
+    if request.airspeed_m_s is None:
         raise InvalidArgument("airspeed_m_s", "is needed with a slot, which moves with it")
+    if request.fence is not None:
+        raise InvalidArgument("fence", "does not go with a slot")
 
 
 class Target(NamedTuple):

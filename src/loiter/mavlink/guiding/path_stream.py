@@ -22,7 +22,7 @@ from loiter.mavlink.connection.command import message_request
 from loiter.mavlink.connection.dead_reckoning import pose_after
 from loiter.mavlink.connection.link import TIMEOUT_S, Link, check_target, dialect, open_link
 from loiter.mavlink.connection.persistent_link import PersistentLink
-from loiter.mavlink.connection.streams import Streams, watch_streams
+from loiter.mavlink.connection.streams import watch_streams
 from loiter.mavlink.connection.telemetry import Telemetry
 from loiter.planning.compass import heading_vector
 from loiter.planning.maneuver import Maneuver
@@ -122,14 +122,8 @@ def _stream(
         if link.vehicle.autopilot != Autopilot.PX4:
             raise LinkFailed(f"{link.vehicle.named} follows no path by setpoints: PX4 does, in its offboard mode")
         started = due = monotonic()
-        telemetry, streams = Telemetry(started), Streams(watch_streams(period_s), started)
-
-        def on_message(message: Any, now: float) -> None:
-            telemetry.update(message, now)
-            streams.update(message, now)
-
-        link.on_message = on_message
-        persistent = PersistentLink(connection, link, telemetry, streams)
+        persistent = PersistentLink(connection, link, watch_streams(period_s))
+        telemetry = persistent.telemetry
         link.send(message_request(link, "AUTOPILOT_VERSION"))
         while True:
             due = max(due + period_s, monotonic())

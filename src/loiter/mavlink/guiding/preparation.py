@@ -73,14 +73,14 @@ class GuideRequest(NamedTuple):
 
     orbit: Orbit
     frame: LocalFrame
-    airspeed_m_s: float | None
-    max_bank_deg: float | None
-    wind: Wind | None
-    altitude_m: float | None
-    keep: bool
-    dry_run: bool
-    accept_fly_away: bool
-    confirm: Callable[[], bool] | None
+    airspeed_m_s: float | None = None
+    max_bank_deg: float | None = None
+    wind: Wind | None = None
+    altitude_m: float | None = None
+    keep: bool = False
+    dry_run: bool = False
+    accept_fly_away: bool = False
+    confirm: Callable[[], bool] | None = None
     fence: PlacedFence | OwnFence | None = None
     margin_m: float | None = None
     slot: Slot | None = None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator
+from collections.abc import Generator
 from dataclasses import dataclass, replace
 from math import isnan, nan
 from time import monotonic
@@ -14,7 +14,7 @@ from loiter.mavlink.connection.command import hold_circle
 from loiter.mavlink.connection.dead_reckoning import pose_after
 from loiter.mavlink.connection.link import TIMEOUT_S, Link, check_target, open_link
 from loiter.mavlink.connection.persistent_link import PersistentLink
-from loiter.mavlink.connection.streams import Streams, watch_streams
+from loiter.mavlink.connection.streams import watch_streams
 from loiter.mavlink.connection.telemetry import Motion, Telemetry, WindSource
 from loiter.mavlink.missions.flown_radius import (
     LoiterScaling,
@@ -179,28 +179,18 @@ def _watch(
     with open_link(connection, system, component, timeout_s, heartbeats=heartbeats) as link:
         commander = _HoldCommander(link, planner, hold_options, timeout_s)
         started = monotonic()
-        telemetry, streams = Telemetry(started), Streams(watch_streams(period_s), started)
-        link.on_message = _to_all(telemetry.update, streams.update, commander.update)
-        persistent = PersistentLink(connection, link, telemetry, streams)
+        persistent = PersistentLink(connection, link, watch_streams(period_s), commander.update)
         due = started + period_s
         while True:
             persistent.listen(due, timeout_s)
             now = monotonic()
-            report = commander.command_once(planner.report(telemetry, now, now - started, persistent.problem))
+            report = commander.command_once(
+                planner.report(persistent.telemetry, now, now - started, persistent.problem)
+            )
             yield replace(report, notices=(*persistent.take_notices(), *report.notices))
             # If the caller was slow, the next report comes a period later, when the pending messages have been
             # received.
             due = due + period_s if due + period_s > monotonic() else monotonic() + period_s
-
-
-def _to_all(*receivers: Callable[[Any, float], None]) -> Callable[[Any, float], None]:
-    """A function that passes every message to all receivers."""
-
-    def on_message(message: Any, now: float) -> None:
-        for receiver in receivers:
-            receiver(message, now)
-
-    return on_message
 
 
 class _HoldCommander:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from math import atan2, degrees, pi
+from math import pi
 
 from loiter.arrays import reduce
 from loiter.io.maps.track import step_counts, vertices
 from loiter.kernel.wind.hold import hold_pose, phase_of
-from loiter.planning.compass import wrapped
+from loiter.planning.compass import heading_of
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import radius_in_turns, relative_wind
 from loiter.planning.sides import SIDES
@@ -55,7 +55,7 @@ def lap(maneuver: Maneuver, laps: int = 1) -> dict[str, list[float]]:
         x, y, c, s, g = hold_pose(first + i * step, side, R, wx, wy)
         time = time if speed is None else time + step * R * r / (0.5 * (speed + g) * V)
         east, north = orbit.centre_after(time)
-        rows.append((time, east + r * x, north + r * y, wrapped(degrees(atan2(c, s))), 0.0, side * R))
+        rows.append((time, east + r * x, north + r * y, heading_of(c, s), 0.0, side * R))
         speed = g
     names = ("time_s", "east_m", "north_m", "heading_deg", "x", "y")
     return {name: list(column) for name, column in zip(names, zip(*rows, strict=True), strict=True)}

@@ -4,7 +4,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 495aee8f417f30124cd847fdbf3cbaedf1d94009756aa99d489aa360c365feaf
+ * SHA-256 of the source: 360226a2d4cbc53af87c8e585ee57e29d0a4308ba4affb4461e5b4d6ee8d6a89
  */
 
 // What Python has and JavaScript has not: the first of two that tie, and quotients rounded down. Integers are doubles
@@ -205,14 +205,14 @@ export const Word = { EMPTY: 0, R: 1, L: 3, SR: 6, SL: 14, RL: 13, LR: 7, RSR: 2
 /**
  * A search for the fastest entry, which `advance_search` continues: its stage, and what is known so far.
  *
- * The sides of the circle that are asked for are `sides`, that which is searched now is `one`. `best` is the
+ * The sides of the circle that are asked for are `sides`, that which is searched now is `side`. `best` is the
  * fastest path found, `beside` the entry beside the circle that counts, too. `visit` is the next cell; `before` the
  * end of the leaf before it, `leaves` those that are left on this side, and `others` on the other one. `corner` is
  * that of the best path, which took the time `compared`, and `visits` the number of cells so far. While there is a
  * refinement, it is continued first; `cell` is the cell that waits for it. `left` is the number of steps that may
  * follow at once, and `entry` the result once the stage is ENDED.
  *
- * @typedef {{stage: number, sides: number, one: number, scene: WindScene, best: WindCandidate, beside: EntryBeside,
+ * @typedef {{stage: number, sides: number, side: number, scene: WindScene, best: WindCandidate, beside: EntryBeside,
  *         visit: CellVisit, before: LeafEnd, leaves: Leaves, others: Leaves, corner: Corner, compared: number,
  *         visits: number, refinement: Refinement, cell: OpenCell, left: number, entry: WindEntry}} WindSearch
  */
@@ -357,7 +357,7 @@ export const WIND_TIE_TOLERANCE = 1e-12;
 /* A slower wind displaces no point within REACH by as much as rounding, and its square would be subnormal. */
 export const NEGLIGIBLE_WIND = 3.8725919148493183e-121; /* 2.0 ** (-400) */
 /** @type {WindSearch} */
-export const NO_SEARCH = { stage: 0, sides: 0, one: 1, scene: { x: 0.0, y: 0.0, c: 1.0, s: 0.0, R: 1.0, wx: 0.0, wy: 0.0, arc_tolerance: 0.0 }, best: { phase: 0.0, side: 0, path: { time: Infinity, word: 0, t1: 0.0, t2: 0.0, t3: 0.0, lam: 1.0, p1: 1.0, p2: 0.0 } }, beside: { entry: { side: 0, word: 0, t1: Infinity, t2: 0.0, t3: 0.0 }, phase: 0.0, miss: Infinity }, visit: { number: 0, level: 0, words: 63 }, before: { number: -2, point: { phase: 0.0, path: { time: Infinity, word: 0, t1: 0.0, t2: 0.0, t3: 0.0, lam: 1.0, p1: 1.0, p2: 0.0 }, slope: 0.0 } }, leaves: { first: 0, second: 0, third: 0, fourth: 0 }, others: { first: 0, second: 0, third: 0, fourth: 0 }, corner: { phase: 0.0, u: 0, t1: 0.0, t2: 0.0 }, compared: Infinity, visits: 0, refinement: { stage: 0, side: 0, width: 0.0, here: { phase: 0.0, path: { time: Infinity, word: 0, t1: 0.0, t2: 0.0, t3: 0.0, lam: 1.0, p1: 1.0, p2: 0.0 }, slope: 0.0 }, other: { phase: 0.0, path: { time: Infinity, word: 0, t1: 0.0, t2: 0.0, t3: 0.0, lam: 1.0, p1: 1.0, p2: 0.0 }, slope: 0.0 }, last: { phase: 0.0, path: { time: Infinity, word: 0, t1: 0.0, t2: 0.0, t3: 0.0, lam: 1.0, p1: 1.0, p2: 0.0 }, slope: 0.0 }, words: 0, bisect: false, steps: 0, enclosures: 0 }, cell: { words: 0, earliest: 0.0, tolerance: 0.0 }, left: 0, entry: { status: 12, side: 0, word: 0, t1: NaN, t2: NaN, t3: NaN, azimuth: NaN, miss: NaN } };
+export const NO_SEARCH = { stage: 0, sides: 0, side: 1, scene: { x: 0.0, y: 0.0, c: 1.0, s: 0.0, R: 1.0, wx: 0.0, wy: 0.0, arc_tolerance: 0.0 }, best: { phase: 0.0, side: 0, path: { time: Infinity, word: 0, t1: 0.0, t2: 0.0, t3: 0.0, lam: 1.0, p1: 1.0, p2: 0.0 } }, beside: { entry: { side: 0, word: 0, t1: Infinity, t2: 0.0, t3: 0.0 }, phase: 0.0, miss: Infinity }, visit: { number: 0, level: 0, words: 63 }, before: { number: -2, point: { phase: 0.0, path: { time: Infinity, word: 0, t1: 0.0, t2: 0.0, t3: 0.0, lam: 1.0, p1: 1.0, p2: 0.0 }, slope: 0.0 } }, leaves: { first: 0, second: 0, third: 0, fourth: 0 }, others: { first: 0, second: 0, third: 0, fourth: 0 }, corner: { phase: 0.0, u: 0, t1: 0.0, t2: 0.0 }, compared: Infinity, visits: 0, refinement: { stage: 0, side: 0, width: 0.0, here: { phase: 0.0, path: { time: Infinity, word: 0, t1: 0.0, t2: 0.0, t3: 0.0, lam: 1.0, p1: 1.0, p2: 0.0 }, slope: 0.0 }, other: { phase: 0.0, path: { time: Infinity, word: 0, t1: 0.0, t2: 0.0, t3: 0.0, lam: 1.0, p1: 1.0, p2: 0.0 }, slope: 0.0 }, last: { phase: 0.0, path: { time: Infinity, word: 0, t1: 0.0, t2: 0.0, t3: 0.0, lam: 1.0, p1: 1.0, p2: 0.0 }, slope: 0.0 }, words: 0, bisect: false, steps: 0, enclosures: 0 }, cell: { words: 0, earliest: 0.0, tolerance: 0.0 }, left: 0, entry: { status: 12, side: 0, word: 0, t1: NaN, t2: NaN, t3: NaN, azimuth: NaN, miss: NaN } };
 
 /* The stages of a search: on each side, first some points, then cells down to the leaves, then the leaves that are
  * left.
@@ -474,6 +474,9 @@ export const NO_CANDIDATE = { phase: 0.0, side: 0, path: { time: Infinity, word:
  * degenerate scenes, some of those in still air with R = 1 or 2; the slowest others found take some 2,500.
  */
 export const MOST_VISITS = 4096;
+
+/* The arc of the circle that is held for `hold_tolerance`. */
+export const UNKNOWN_ARC = 0.0015339807878856412; /* TWO_PI / 4096.0 */
 
 /* In cells within this many half widths of the end of the best path, bounds around that end are tried too. */
 export const NEAR_BEST = 8.0;
@@ -2346,9 +2349,9 @@ export function begin_search(problem) {
             return { ...search, stage: ENDED, entry: entry_at(entry, phase, miss, scene) };
         }
     }
-    for (const one of [1, -1]) {
-        if (problem.side !== 0 - one && is_on_circle(one, scene)) {
-            search = { ...search, best: start_on_circle(one, scene) };
+    for (const side of [1, -1]) {
+        if (problem.side !== 0 - side && is_on_circle(side, scene)) {
+            search = { ...search, best: start_on_circle(side, scene) };
         }
     }
     if (search.best.side !== 0) {
@@ -3021,17 +3024,17 @@ export function next_leaf(leaf) {
  * @type {(search: WindSearch) => WindSearch}
  */
 export function next_stage(search) {
-    const stage = search.stage + 1, one = 0 - search.one;
+    const stage = search.stage + 1, side = 0 - search.side;
     if (stage === ENDED) {
         return end_search(search);
     }
     let visit = FIRST_CELL;
-    if (stage > COARSE_OTHER || search.sides === 0 - one) {
+    if (stage > COARSE_OTHER || search.sides === 0 - side) {
         const first = search.others.first, second = search.others.second, third = search.others.third, fourth =
                 search.others.fourth;
         visit = next_leaf((((first | second) | third) | fourth) !== 0 ? -1 : shift_left(FIRST_CELLS, LEAF));
     }
-    return { ...search, stage: stage, one: one, visit: visit, before: NO_LEAF_END, leaves: search.others, others:
+    return { ...search, stage: stage, side: side, visit: visit, before: NO_LEAF_END, leaves: search.others, others:
             search.leaves, corner: NO_CORNER, compared: Infinity, visits: 0 };
 }
 
@@ -3102,7 +3105,7 @@ export function refine_path(search) {
     const found = minimum_of(refinement), best = search.best;
     if (search.stage === JOINING) {
         // The better side is searched first, which shortens the search on the other side.
-        search = { ...search, best: found, one: found.side !== 0 ? 0 - found.side : -1 };
+        search = { ...search, best: found, side: found.side !== 0 ? 0 - found.side : -1 };
         return found.path.time > 0.0 ? next_stage(search) : end_search(search);
     }
     if (search.stage <= COARSE_OTHER) {
@@ -3136,12 +3139,12 @@ export function best_of_joins(side, scene, best) {
  */
 export function join_one_side(search) {
     let best = search.best;
-    const scene = search.scene, one = search.one;
-    if (search.sides !== 0 - one) {
-        best = best_of_joins(one, scene, best);
+    const scene = search.scene, side = search.side;
+    if (search.sides !== 0 - side) {
+        best = best_of_joins(side, scene, best);
     }
-    const refinement = one === 1 ? NO_REFINEMENT : begin_refinement(best, TWO_PI / JOINS, scene);
-    return { ...search, best: best, one: 0 - one, left: search.left - 1, refinement: refinement };
+    const refinement = side === 1 ? NO_REFINEMENT : begin_refinement(best, TWO_PI / JOINS, scene);
+    return { ...search, best: best, side: 0 - side, left: search.left - 1, refinement: refinement };
 }
 
 /**
@@ -3775,16 +3778,16 @@ export function with_leaf(leaves, number) {
  * @type {(search: WindSearch) => WindSearch}
  */
 export function coarse_search(search) {
-    const one = search.one, scene = search.scene, best = search.best;
+    const side = search.side, scene = search.scene, best = search.best;
     let visit = search.visit, before = search.before;
     let leaves = search.leaves, left = search.left, start = NO_POINT;
     while (left > 0 && start.path.time === Infinity && visit.number < shift_left(FIRST_CELLS, visit.level)) {
         left -= 1;
         const middle_of_1 = middle_of(visit);
-        let words = words_inside(middle_of_1[0], middle_of_1[1], (visit.words & ALL_WORDS), one, scene,
+        let words = words_inside(middle_of_1[0], middle_of_1[1], (visit.words & ALL_WORDS), side, scene,
                 best.path.time);
         if (words !== 0 && visit.level >= COARSE) {
-            const examine_cell_2 = examine_cell(visit, words, one, scene, before, best);
+            const examine_cell_2 = examine_cell(visit, words, side, scene, before, best);
             words = examine_cell_2[0];
             before = examine_cell_2[1];
             start = examine_cell_2[2];
@@ -3797,7 +3800,7 @@ export function coarse_search(search) {
     }
     search = { ...search, visit: visit, before: before, leaves: leaves, left: left };
     if (start.path.time < Infinity) {
-        return { ...search, refinement: refinement_from(start, one, TWO_PI / shift_left(FIRST_CELLS, LEAF)) };
+        return { ...search, refinement: refinement_from(start, side, TWO_PI / shift_left(FIRST_CELLS, LEAF)) };
     }
     return visit.number < shift_left(FIRST_CELLS, visit.level) ? search : next_stage(search);
 }
@@ -3824,12 +3827,12 @@ export function time_tolerance(best, scene) {
 }
 
 /**
- * The tolerance after `MOST_VISITS` cells: an upper bound on the time to hold the circle through 2 pi/4096.
+ * The tolerance after `MOST_VISITS` cells: an upper bound on the time to hold the circle through `UNKNOWN_ARC`.
  *
  * @type {(scene: WindScene) => number}
  */
 export function hold_tolerance(scene) {
-    return scene.R / (1.0 - length(scene.wx, scene.wy)) * (TWO_PI / 4096.0);
+    return scene.R / (1.0 - length(scene.wx, scene.wy)) * UNKNOWN_ARC;
 }
 
 /**
@@ -4051,7 +4054,7 @@ export function compare_at_end(visit, side, scene, best) {
  * @type {(search: WindSearch) => WindSearch}
  */
 export function fine_search(search) {
-    const one = search.one, scene = search.scene, best = search.best, leaves = search.leaves;
+    const side = search.side, scene = search.scene, best = search.best, leaves = search.leaves;
     let visit = search.visit;
     let corner = search.corner, compared = search.compared, visits = search.visits, left = search.left;
     let start = NO_CANDIDATE, cell = search.cell;
@@ -4065,8 +4068,8 @@ export function fine_search(search) {
         const tolerance = visits <= MOST_VISITS ? time_tolerance(best, scene) : hold_tolerance(scene);
         const sooner = best.path.time - tolerance;
         const middle_of_1 = middle_of(visit);
-        let words = words_inside(middle_of_1[0], middle_of_1[1], (visit.words & ALL_WORDS), one, scene, sooner);
-        if (words !== 0 && one === best.side) {
+        let words = words_inside(middle_of_1[0], middle_of_1[1], (visit.words & ALL_WORDS), side, scene, sooner);
+        if (words !== 0 && side === best.side) {
             if (best.path.time < compared) {
                 corner = corner_of(best, scene);
                 compared = best.path.time;
@@ -4074,7 +4077,7 @@ export function fine_search(search) {
             words = words_beside_best(visit, words, scene, best, corner, sooner);
         }
         if (words !== 0 && integer_modulo(LAST - visit.level, 2) === 0 && visit.level > LEAF) {
-            const compare_at_end_2 = compare_at_end(visit, one, scene, best);
+            const compare_at_end_2 = compare_at_end(visit, side, scene, best);
             const earliest = compare_at_end_2[0];
             start = compare_at_end_2[1];
             cell = { words, earliest, tolerance };
@@ -4199,7 +4202,7 @@ export function local_minima(problem) {
  * @type {(problem: WindProblem) => WindEntry[]}
  */
 export function wind_search_ranked(problem) {
-    const sides = [1, -1].filter((one) => problem.side !== 0 - one).map((one) => ({ ...problem, side: one }));
+    const sides = [1, -1].filter((side) => problem.side !== 0 - side).map((side) => ({ ...problem, side: side }));
     let found = sides.map((one) => wind_search_fastest(one));
     if (found.some((maneuver) => maneuver.status !== Status.OK)) {
         return [];

@@ -53,7 +53,7 @@ for (i of iter(range(add(mul(laps, LAP_STEPS), 1)))) {
 [x, y, c, s, g] = iter(kernel.hold_pose(add(first, mul(i, step)), side, R, wx, wy));
 time = ((speed == null) ? time : add(time, div(mul(mul(step, R), r), mul(mul(0.5, add(speed, g)), V))));
 [east, north] = iter(orbit.centre_after(time));
-append_(rows_, [time, add(east, mul(r, x)), add(north, mul(r, y)), wrapped(math.degrees(math.atan2(c, s))), 0.0, mul(side, R)]);
+append_(rows_, [time, add(east, mul(r, x)), add(north, mul(r, y)), heading_of(c, s), 0.0, mul(side, R)]);
 speed = g;
 }
 names = ["time_s", "east_m", "north_m", "heading_deg", "x", "y"];
@@ -1369,10 +1369,10 @@ const self = this;
 [r, side] = iter([self.aircraft.turn_radius_m, item(SIDES, self.turn)]);
 scene = [radius_in_turns(self.orbit, self.aircraft), ...iter(relative_wind(self.orbit, self.aircraft, self.wind))];
 [x, y, c, s, _] = iter(kernel.hold_pose(phase, side, ...iter(scene)));
-heading_deg = wrapped(math.degrees(math.atan2(c, s)));
+heading_deg = heading_of(c, s);
 [track_deg, speed] = iter(over_ground(heading_deg, self.aircraft, self.wind));
 bank_deg = self.aircraft.bank_deg(div(r, kernel.hold_rate(phase, side, ...iter(scene))));
-return HoldPoint(wrapped(math.degrees(math.atan2(x, y))), heading_deg, track_deg, speed, bank_deg);
+return HoldPoint(heading_of(x, y), heading_deg, track_deg, speed, bank_deg);
 }
 }, ["orbit", "aircraft", "wind", "turn"], 'Hold');
 
@@ -1515,6 +1515,10 @@ arrays.unchecked(name, value, kind);
 }
 circle = [orbit.velocity_east_m_s, orbit.velocity_north_m_s];
 return RelativeWind(...iter(relative_velocity(wind.velocity_m_s, circle, aircraft.airspeed_m_s)));
+}
+
+function heading_of(east, north) {
+return wrapped(math.degrees(math.atan2(east, north)));
 }
 
 const HoldPoint = struct(class extends Tuple {
@@ -1899,7 +1903,7 @@ then = replace(slot, { at_s: sub(slot.at_s, time_s) });
 phase = phase_at_start(then, given, problem.time_unit_s);
 [x, y, c, s, _] = iter(kernel.hold_pose(phase, given.side, given.R, given.wx, given.wy));
 [east, north] = iter(problem.orbit.centre_after(time_s));
-return Pose(add(east, mul(r, x)), add(north, mul(r, y)), wrapped(math.degrees(math.atan2(c, s))));
+return Pose(add(east, mul(r, x)), add(north, mul(r, y)), heading_of(c, s));
 }
 
 const PlacedProblem = struct(class extends Tuple {
@@ -3062,7 +3066,7 @@ let V, bank_deg, c, e, n, s, x, y;
 const self = this;
 [V, [x, y, c, s], [e, n]] = iter([self._airspeed_m_s, self._pose, self._wind]);
 bank_deg = bank_at_rate(neg(self._rate), V);
-return State(self._time_s, x, y, wrapped(math.degrees(math.atan2(c, s))), bank_deg, add(mul(V, c), e), add(mul(V, s), n), V);
+return State(self._time_s, x, y, heading_of(c, s), bank_deg, add(mul(V, c), e), add(mul(V, s), n), V);
 }
 measured_state() {
 const self = this;
@@ -4215,7 +4219,7 @@ for (share of iter(shares)) {
 phase = sub(last, mul(sub(1.0, share), width));
 [x, y, c, s, _] = iter(kernel.hold_pose(phase, side, R, wx, wy));
 time_s = add(plan.entry.duration_s, mul(kernel.time_held(phase, mul(share, width), R, wx, wy), div(r, aircraft.airspeed_m_s)));
-heading_deg = wrapped(math.degrees(math.atan2(c, s)));
+heading_deg = heading_of(c, s);
 append_(states, HoldState(time_s, add(orbit.east_m, mul(r, x)), add(orbit.north_m, mul(r, y)), heading_deg));
 }
 return states;
@@ -5162,7 +5166,7 @@ this.time = time;
 function _exit_pose(orbit, out, scene, r) {
 let _, c, s, x, y;
 [x, y, c, s, _] = iter(kernel.hold_pose(out.phase, out.side, scene.R, scene.wx, scene.wy));
-return Pose(add(orbit.east_m, mul(r, x)), add(orbit.north_m, mul(r, y)), wrapped(math.degrees(math.atan2(c, s))));
+return Pose(add(orbit.east_m, mul(r, x)), add(orbit.north_m, mul(r, y)), heading_of(c, s));
 }
 
 function first_clear(fence, maneuvers, margin_m = null) {
