@@ -27,3 +27,8 @@ typedef uint64_t unsigned_integer;
 #else
 #define APART
 #endif
+
+/* Whether a step may be so long, seconds. */
+static inline bool is_step(real dt_s) {
+    return dt_s > REAL(0.0) && dt_s <= (real)LOITER_LONGEST_STEP_S;
+}

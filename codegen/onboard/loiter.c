@@ -232,7 +232,7 @@ static void step_with(loiter_law *law, const loiter_measurement *m, real dt_s, l
 
 int loiter_law_step_known(loiter_law *law, const loiter_measurement *measurement, loiter_real dt_s,
                           loiter_command *command) {
-    if (!(dt_s > REAL(0.0) && dt_s <= (real)LOITER_LONGEST_STEP_S)) {
+    if (!is_step(dt_s)) {
         return LOITER_BAD_STEP;
     }
     step_with(law, measurement, dt_s, command);
@@ -240,7 +240,7 @@ int loiter_law_step_known(loiter_law *law, const loiter_measurement *measurement
 }
 
 int loiter_law_step(loiter_law *law, const loiter_measurement *measurement, loiter_real dt_s, loiter_command *command) {
-    if (dt_s > REAL(0.0) && dt_s <= (real)LOITER_LONGEST_STEP_S) {
+    if (is_step(dt_s)) {
         law->vehicle = fly_as_declared(&law->vehicle, law->memory.command.bank_deg, law->memory.step_s);
     }
     return loiter_law_step_known(law, measurement, dt_s, command);

@@ -39,7 +39,7 @@ static void follow_clock(loiter_identification *identification, uint32_t time_us
 
 int loiter_law_step_identified(loiter_law *law, loiter_identification *identification, const loiter_measurement *m,
                                loiter_real dt_s, loiter_command *command) {
-    if (!(dt_s > REAL(0.0) && dt_s <= (real)LOITER_LONGEST_STEP_S)) {
+    if (!is_step(dt_s)) {
         return LOITER_BAD_STEP;
     }
     Identification *const memory = &identification->memory;

@@ -2,7 +2,7 @@
 --
 -- Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
 --
--- SHA-256 of the source: 80f163c1ed1a993dddbd76faffc38b2d6cbf440cac277cd32a987da88c4bfeb2
+-- SHA-256 of the source: 1ce87bb727859c50b6beb4c3ec1849ea5e82e381ccc240fc1d8f47b413b15757
 --
 -- When a switch asks for it, this script flies a plane onto the holding circle around its present target in least
 -- time, and then leaves the circle to ArduPlane: loiter_entry.md. It works by GUIDED_CHANGE_HEADING in GUIDED: the target

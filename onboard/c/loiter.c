@@ -64,6 +64,11 @@ typedef uint64_t unsigned_integer;
 #define APART
 #endif
 
+/* Whether a step may be so long, seconds. */
+static inline bool is_step(real dt_s) {
+    return dt_s > REAL(0.0) && dt_s <= (real)LOITER_LONGEST_STEP_S;
+}
+
 typedef loiter_Rings Rings;
 
 #if defined(__GNUC__) || defined(__clang__)
@@ -5270,7 +5275,7 @@ static void step_with(loiter_law *law, const loiter_measurement *m, real dt_s, l
 
 int loiter_law_step_known(loiter_law *law, const loiter_measurement *measurement, loiter_real dt_s,
                           loiter_command *command) {
-    if (!(dt_s > REAL(0.0) && dt_s <= (real)LOITER_LONGEST_STEP_S)) {
+    if (!is_step(dt_s)) {
         return LOITER_BAD_STEP;
     }
     step_with(law, measurement, dt_s, command);
@@ -5278,7 +5283,7 @@ int loiter_law_step_known(loiter_law *law, const loiter_measurement *measurement
 }
 
 int loiter_law_step(loiter_law *law, const loiter_measurement *measurement, loiter_real dt_s, loiter_command *command) {
-    if (dt_s > REAL(0.0) && dt_s <= (real)LOITER_LONGEST_STEP_S) {
+    if (is_step(dt_s)) {
         law->vehicle = fly_as_declared(&law->vehicle, law->memory.command.bank_deg, law->memory.step_s);
     }
     return loiter_law_step_known(law, measurement, dt_s, command);

@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: e910d507d338d0011d0b3bd642301521f92f467b0f9cf0400ac07bc65c973711
+ * SHA-256 of the source: e10eda0d3cf2ef75a10104f315693f7bf014a2492eee15c4e9c4de29da3a78ed
  */
 #ifndef LOITER_IDENTIFICATION_H
 #define LOITER_IDENTIFICATION_H
@@ -44,12 +44,13 @@ typedef struct { loiter_real ratio; loiter_RatioFit fit; loiter_real last_deg, l
         computed_deg; loiter_HighPass measured_mean, computed_mean; } loiter_QuickTurns;
 typedef struct { loiter_real lead_s; loiter_RatioFit fit; loiter_HighPass angle, rate; } loiter_CourseLead;
 typedef struct { loiter_SlowTurns slow; loiter_QuickTurns quick; loiter_CourseLead lead; } loiter_Turns;
-typedef struct { loiter_real east_m_s, north_m_s, right_east_m_s, right_north_m_s, product, square; }
+typedef struct { loiter_real heading, airspeed; } loiter_AirErrors;
+typedef struct { loiter_real east_m_s, north_m_s, right_east_m_s, right_north_m_s, right, along, square; }
         loiter_AirMeans;
 typedef struct { loiter_real since_s, mean_east_m_s, mean_north_m_s, swift_east_m_s, swift_north_m_s, usual_square;
         } loiter_WindChange;
-typedef struct { loiter_real east_m_s, north_m_s, heading_bias_deg, known_s; loiter_AirMeans means;
-        loiter_WindChange change; } loiter_WindFit;
+typedef struct { loiter_real east_m_s, north_m_s; loiter_AirErrors errors, expected; loiter_real known_s;
+        loiter_AirMeans means; loiter_WindChange change; } loiter_WindFit;
 typedef struct { loiter_real value, known_s; } loiter_Average;
 typedef struct { loiter_Average always, in_turns; } loiter_Airspeeds;
 typedef struct { loiter_real overshoot_deg; bool has_begun; } loiter_Overshoot;

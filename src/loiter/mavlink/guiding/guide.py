@@ -121,11 +121,11 @@ def checked_request(request: GuideRequest) -> GuideRequest:
     r = request
     for name, value, kind in (("orbit", r.orbit, Orbit), ("frame", r.frame, LocalFrame)):
         instance(name, value, kind)
-    for name, given, kind in (("wind", r.wind, Wind), ("slot", r.slot, Slot)):
-        if given is not None:
-            instance(name, given, kind)
+    if r.wind is not None:
+        instance("wind", r.wind, Wind)
     share("slot_band", r.slot_band)
     if r.slot is not None:
+        instance("slot", r.slot, Slot)
         _check_slot(r)
     if r.orbit.moves:
         raise InvalidArgument("orbit", "moves: an autopilot holds only circles at rest")
