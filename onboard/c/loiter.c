@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 7ba1f94eb2d354185bd358f83da71c234b779880d61789addfd0656bb366b631
+ * SHA-256 of the source: 31df60ae4723e40e68952786edb2c5b6c1db22a55b63c0d38fef8be0a205bd81
  */
 #include "loiter.h"
 
