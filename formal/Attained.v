@@ -9,14 +9,6 @@ Open Scope R_scope.
 Definition reaches (x0 y0 T x1 y1 : R) : Prop :=
   exists x y th u, trajectory x y u T /\ turns th u T /\ x 0 = x0 /\ y 0 = y0 /\ x T = x1 /\ y T = y1.
 
-Lemma rd_of_derive f t l : is_derive f t l -> right_derive f t l.
-Proof.
-  intros df. pose proof (rd_comp f (fun s => s) t l 1 df (rd_id t)) as rd. rewrite Rmult_1_r in rd. exact rd.
-Qed.
-
-Lemma lc_of_derive f t l : is_derive f t l -> left_continuous f t.
-Proof. intros df. exact (fl_derive f (fun s => s) t l df (lc_id t)). Qed.
-
 (** Smooth motion under a constant control is a trajectory. *)
 Lemma constant_control (x y : R -> R) u T : 0 <= T -> -1 <= u <= 1 ->
   (forall t, is_derive x t (1 + u * y t)) -> (forall t, is_derive y t (- (u * x t))) ->
@@ -170,7 +162,18 @@ Proof.
   - rewrite cos_0. ring.
 Qed.
 
-Lemma rsl_flown x y : 0 <= y -> 4 <= range_sq x y -> reaches x y (time_rsl x y) 0 1.
+Lemma last_arc_flown : reaches (- sqrt 3) 0 (PI / 3) 0 1.
+Proof.
+  pose proof PI_RGT_0. apply (reaches_same _ _ _ _ _ _ _ _ _ _ (flies_left 2 (- (PI / 3)) 0 ltac:(lra))).
+  - rewrite sin_neg, sin_PI3. field.
+  - rewrite cos_neg, cos_PI3. field.
+  - ring.
+  - rewrite sin_0. ring.
+  - rewrite cos_0. ring.
+Qed.
+
+(** RSL without its last arc. *)
+Lemma to_axis_flown x y : 0 <= y -> 4 <= range_sq x y -> reaches x y (time_rsl x y - PI / 3) (- sqrt 3) 0.
 Proof.
   intros up far. pose proof (off_axis_far x y up far) as off. set (c := sqrt (range_sq x y - 1)).
   assert (cc : c * c = range_sq x y - 1) by (apply sqrt_sqrt; lra).
@@ -194,16 +197,15 @@ Proof.
   pose proof (right_from x y d off le) as first. fold r in first. rewrite cd, sd in first.
   replace (1 - 1) with 0 in first by ring.
   pose proof (flies_straight (- c) (- sqrt 3) ltac:(lra)) as middle.
-  pose proof (flies_left 2 (- (PI / 3)) 0 ltac:(lra)) as last.
-  replace (2 * sin (- (PI / 3))) with (- sqrt 3) in last by (rewrite sin_neg, sin_PI3; field).
-  replace (2 * cos (- (PI / 3)) - 1) with 0 in last by (rewrite cos_neg, cos_PI3; field).
-  pose proof (reaches_trans _ _ _ _ _ _ _ _ middle last) as rest.
-  apply (reaches_same _ _ _ _ _ _ _ _ _ _ (reaches_trans _ _ _ _ _ _ _ _ first rest)).
-  - reflexivity.
-  - reflexivity.
-  - unfold time_rsl. fold c d. lra.
-  - rewrite sin_0. ring.
-  - rewrite cos_0. ring.
+  apply (reaches_same _ _ _ _ _ _ _ _ _ _ (reaches_trans _ _ _ _ _ _ _ _ first middle)); try reflexivity.
+  unfold time_rsl. fold c d. lra.
+Qed.
+
+Lemma rsl_flown x y : 0 <= y -> 4 <= range_sq x y -> reaches x y (time_rsl x y) 0 1.
+Proof.
+  intros up far.
+  apply (reaches_same _ _ _ _ _ _ _ _ _ _ (reaches_trans _ _ _ _ _ _ _ _ (to_axis_flown x y up far) last_arc_flown));
+    try reflexivity. ring.
 Qed.
 
 Lemma lrl_flown x y : 0 <= y -> left_first x y -> reaches x y (time_lrl x y) 0 1.
@@ -225,7 +227,7 @@ Proof.
   set (h := sqrt P). assert (hpos : 0 < h) by (apply sqrt_lt_R0; lra). assert (hh : h * h = P) by (apply sqrt_sqrt; lra).
   assert (place : forall p q, 0 <= q -> outer_sq p q = P ->
       h * sin (outer_angle p q) = p /\ h * cos (outer_angle p q) - 1 = q).
-  { intros p q q0 onP. unfold outer_angle. rewrite sin_atan, cos_atan. unfold Rsqr.
+  { intros p q q0 onP. rewrite outer_angle_above by lra. rewrite sin_atan, cos_atan. unfold Rsqr.
     assert (root : sqrt (1 + p / (q + 1) * (p / (q + 1))) = h / (q + 1)).
     { apply sqrt_lem_1; [|left; apply Rdiv_lt_0_compat; lra|].
       - pose proof (pow2_ge_0 (p / (q + 1))). lra.
@@ -234,7 +236,7 @@ Proof.
     rewrite root. split; field; lra. }
   destruct (place x y up eq_refl) as [sx cx]. destruct (place a b b0 same) as [sa ca].
   assert (earlier : outer_angle x y <= outer_angle a b).
-  { unfold outer_angle. assert (x / (y + 1) <= a / (b + 1)).
+  { rewrite !outer_angle_above by lra. assert (x / (y + 1) <= a / (b + 1)).
     { destruct (Rle_dec x 0) as [left|right].
       - apply Rle_trans with 0.
         + unfold Rdiv. assert (0 < / (y + 1)) by (apply Rinv_0_lt_compat; lra). nra.

@@ -94,10 +94,11 @@ Section Trajectory.
     at_right t (fun s => time_lrl (x t) (y t) + t - eps * (s - t) <= time_lrl (x s) (y s) + s).
   Proof.
     intros inside [within before] epos. pose proof (tr_moves t inside) as mv.
-    pose proof (rd_time_lrl x y t (u t) mv (fun v _ => up v) within) as rd.
+    pose proof (up t). pose proof (rd_time_lrl x y t (u t) mv (off_cut_intro (y t + 1) (x t) ltac:(left; lra))
+      (reachable_above _ (P_bounds _ _ (up t) within))) as rd.
     apply (rd_slow (fun s => time_lrl (x s) (y s)) t _) with (2 := rd); [|exact epos].
     destruct mv as [[_ high] _]. pose proof (lrl_margin_nonneg _ _ (up t) within before).
-    pose proof (P_bounds _ _ (up t) within). pose proof (c_pos _ (proper_inside _ (s_of_proper _ H0))).
+    pose proof (P_bounds _ _ (up t) within) as Pb. pose proof (c_pos _ (proper_inside _ (s_of_proper _ Pb))).
     apply Rmult_le_pos; [apply Rmult_le_pos; lra|left; apply Rinv_0_lt_compat, Rmult_lt_0_compat; lra].
   Qed.
 
@@ -154,7 +155,8 @@ Section Trajectory.
       lc_close (fun s => time_rsl (x s) (y s)) t
         (fl_time_rsl x y _ _ lx ly (off_axis_far _ _ (up t) h) ltac:(lra)) eps epos)).
     assert (sc := eventually_if (F := at_left t) (left_first (x t) (y t)) _ (fun h =>
-      lc_close (fun s => time_lrl (x s) (y s)) t (fl_time_lrl x y _ _ lx ly (up t) (proj1 h)) eps epos)).
+      lc_close (fun s => time_lrl (x s) (y s)) t (fl_time_lrl x y _ _ lx ly (off_cut_intro (y t + 1) (x t) ltac:(left; pose proof (up t); lra))
+        (reachable_above _ (P_bounds _ _ (up t) (proj1 h)))) eps epos)).
     assert (sd := eventually_if (F := at_left t) (off_axis (x t) (y t) /\ range_sq (x t) (y t) <= 4) _ (fun h =>
       lc_close (fun s => time_rl (x s) (y s)) t (fl_time_rl x y _ _ lx ly (proj1 h) ltac:(lra)) eps epos)).
     assert (so := eventually_if (F := at_left t) (x t < 0) _ (fun h => outer_before t inside h)).

@@ -224,6 +224,14 @@ Section Along.
   Proof. intros above lf. exact (lf _ (open_gt k v above)). Qed.
 End Along.
 
+Lemma rd_of_derive f t l : is_derive f t l -> right_derive f t l.
+Proof.
+  intros df. pose proof (rd_comp f (fun s => s) t l 1 df (rd_id t)) as rd. rewrite Rmult_1_r in rd. exact rd.
+Qed.
+
+Lemma lc_of_derive f t l : is_derive f t l -> left_continuous f t.
+Proof. intros df. exact (fl_derive f (fun s => s) t l df (lc_id t)). Qed.
+
 (** * Trajectories *)
 
 (** A point of the reduced plane moves with [x' = 1 + u y], [y' = - u x] under a control [|u| <= 1]. Controls that are

@@ -21,8 +21,8 @@ Record near (x y x' y' : R) : Prop := {
 Lemma curve_narrow P : 1 <= P < 4 -> 3 * (curve_x P * curve_x P) <= 4 - P.
 Proof.
   intros bounds. pose proof (s_of_proper P bounds) as ps. pose proof (circle_of_s P bounds) as circle.
-  pose proof (proper_inside _ ps) as inside. pose proof (m_nonneg _ ps) as mpos. pose proof (w_over_2s _ ps) as wpos.
-  pose proof (c_sq _ inside) as cc. pose proof (w_sq (s_of P)) as ww. destruct ps as [spos [above below]].
+  pose proof (proper_inside _ ps) as inside. pose proof (m_of_above P bounds) as mpos. pose proof (s_of_above P bounds) as above. pose proof (w_over_2s _ ps) as wpos.
+  pose proof (c_sq _ inside) as cc. pose proof (w_sq (s_of P)) as ww. destruct ps as [spos [_ below]].
   unfold curve_x, circle_sq in *. set (s := s_of P) in *. set (c := c_of s) in *.
   unfold m_of in *. set (w := w_of s) in *.
   assert (m1 : (3 * s - w) * (3 * s - w) <= 1) by nra.
@@ -38,7 +38,7 @@ Qed.
 Lemma curve_x_nonneg P : 1 <= P < 4 -> 0 <= curve_x P.
 Proof.
   intros bounds. pose proof (s_of_proper P bounds) as ps. unfold curve_x.
-  apply Rmult_le_pos; [apply m_nonneg, ps|]. left. apply c_pos, proper_inside, ps.
+  apply Rmult_le_pos; [apply m_of_above, bounds|]. left. apply c_pos, proper_inside, ps.
 Qed.
 
 Section Along.
@@ -59,22 +59,29 @@ Section Along.
     apply fl_mult; (apply fl_plus; [exact ly|apply fl_const]).
   Qed.
 
-  Lemma fl_s_of (f : R -> R) P : 1 <= P < 4 -> filterlim f F (locally P) ->
+  Lemma fl_discriminant (f : R -> R) P : filterlim f F (locally P) ->
+    filterlim (fun s => discriminant (f s)) F (locally (discriminant P)).
+  Proof.
+    intros lf. pose proof (fl_plus _ _ _ _ (fl_mult _ _ _ _ lf (fl_const (/ 2))) (fl_const 1)) as half.
+    unfold discriminant. apply fl_minus; [apply fl_mult; exact half|].
+    apply fl_scal, fl_mult; (apply fl_minus; [exact lf|apply fl_const]).
+  Qed.
+
+  Lemma fl_s_of (f : R -> R) P : reachable P -> filterlim f F (locally P) ->
     filterlim (fun s => s_of (f s)) F (locally (s_of P)).
   Proof.
-    intros bounds lf. pose proof (discriminant_pos P bounds) as dpos. pose proof (sqrt_lt_R0 _ dpos).
+    intros [bounds dpos] lf. pose proof (sqrt_lt_R0 _ dpos).
     assert (half : filterlim (fun s => f s / 2 + 1) F (locally (P / 2 + 1))).
     { apply fl_plus; [|apply fl_const]. apply fl_mult; [exact lf|apply fl_const]. }
     unfold s_of. apply (fl_sqrt (fun s => (f s / 2 + 1 + sqrt (discriminant (f s))) / 6)); [lra|].
     apply fl_mult; [|apply fl_const]. apply fl_plus; [exact half|].
-    apply fl_sqrt; [lra|]. unfold discriminant. apply fl_minus; [apply fl_mult; exact half|].
-    apply fl_scal, fl_mult; (apply fl_minus; [exact lf|apply fl_const]).
+    apply fl_sqrt; [lra|apply fl_discriminant, lf].
   Qed.
 
-  Lemma fl_curve_x (f : R -> R) P : 1 <= P < 4 -> filterlim f F (locally P) ->
+  Lemma fl_curve_x (f : R -> R) P : reachable P -> filterlim f F (locally P) ->
     filterlim (fun s => curve_x (f s)) F (locally (curve_x P)).
   Proof.
-    intros bounds lf. pose proof (fl_s_of f P bounds lf) as ls. pose proof (s_of_proper P bounds) as ps.
+    intros on lf. pose proof (fl_s_of f P on lf) as ls. pose proof (s_of_reachable P on) as ps.
     pose proof (c_pos _ (proper_inside _ ps)) as cpos. pose proof (proper_inside _ ps) as inside.
     unfold curve_x. apply fl_mult.
     - unfold m_of. apply fl_minus; [apply fl_scal, ls|]. exact (fl_derive w_of _ _ _ (is_derive_w _) ls).
@@ -121,14 +128,23 @@ Section Along.
     apply fl_inv; [lra|exact lc].
   Qed.
 
-  Lemma fl_time_lrl : 0 <= y0 -> outer_sq x0 y0 < 4 ->
+  Lemma fl_outer_angle : off_cut (y0 + 1) x0 ->
+    filterlim (fun s => outer_angle (x s) (y s)) F (locally (outer_angle x0 y0)).
+  Proof.
+    intros off. unfold off_cut in off. pose proof (fl_plus _ _ _ _ ly (fl_const 1)) as ly1.
+    unfold outer_angle, angle_of. apply fl_scal.
+    apply (fl_derive atan (fun s => x s / (sqrt ((y s + 1) * (y s + 1) + x s * x s) + (y s + 1))) _ _ (is_derive_atan _)).
+    apply fl_mult; [exact lx|]. apply fl_inv; [lra|]. apply fl_plus; [|exact ly1].
+    apply fl_sqrt; [|apply fl_plus; apply fl_mult; assumption].
+    pose proof (pow2_ge_0 (y0 + 1)). pose proof (pow2_ge_0 x0). lra.
+  Qed.
+
+  Lemma fl_time_lrl : off_cut (y0 + 1) x0 -> reachable (outer_sq x0 y0) ->
     filterlim (fun s => time_lrl (x s) (y s)) F (locally (time_lrl x0 y0)).
   Proof.
-    intros up inside. pose proof (P_bounds x0 y0 up inside) as bounds. unfold time_lrl. apply fl_minus.
-    - apply (fl_derive arcs (fun s => s_of (outer_sq (x s) (y s))) _ _ (is_derive_arcs _ (s_of_proper _ bounds))).
-      apply fl_s_of; [exact bounds|exact fl_outer_sq].
-    - unfold outer_angle. apply (fl_derive atan (fun s => x s / (y s + 1)) _ _ (is_derive_atan _)).
-      apply fl_mult; [exact lx|]. apply fl_inv; [lra|]. apply fl_plus; [exact ly|apply fl_const].
+    intros off on. unfold time_lrl. apply fl_minus; [|apply fl_outer_angle, off].
+    apply (fl_derive arcs (fun s => s_of (outer_sq (x s) (y s))) _ _ (is_derive_arcs _ (s_of_reachable _ on))).
+    apply fl_s_of; [exact on|exact fl_outer_sq].
   Qed.
 
   Lemma eventually_if (A : Prop) (Q : R -> Prop) : (A -> F Q) -> F (fun s => A -> Q s).
@@ -156,7 +172,7 @@ Section Along.
     assert (gap : outer_sq x0 y0 < 4 -> filterlim (fun s => x s - curve_x (outer_sq (x s) (y s))) F
         (locally (x0 - curve_x (outer_sq x0 y0)))).
     { intros h. apply fl_minus; [exact lx|]. apply (fl_curve_x (fun s => outer_sq (x s) (y s))); [|exact lo].
-      split; [apply outer_sq_above, up|exact h]. }
+      apply reachable_above. split; [apply outer_sq_above, up|exact h]. }
     assert (e6 : F (fun s => outer_sq x0 y0 < 4 -> x0 < curve_x (outer_sq x0 y0) ->
         x s - curve_x (outer_sq (x s) (y s)) < 0)).
     { apply eventually_if. intros h. apply eventually_if. intros lt. apply (fl_below _ (x0 - curve_x (outer_sq x0 y0))); [lra|exact (gap h)]. }

@@ -2,7 +2,7 @@
 
 Require Import Reals Lra.
 From Coquelicot Require Import Coquelicot.
-From Loiter Require Import Motion Value Synthesis.
+From Loiter Require Import Motion Value Synthesis Clockwise.
 Open Scope R_scope.
 
 (** The flight moved as a whole, without turning it. *)
@@ -32,21 +32,48 @@ Proof.
   rewrite one. ring.
 Qed.
 
+Section Neighbour.
+  Variable ends : R -> R -> R -> Prop.
+  Variable least : R -> R -> R.
+  Hypothesis is_least : forall X0 Y0 th0 X Y th u T,
+    flight X Y th u T -> X 0 = X0 -> Y 0 = Y0 -> th 0 = th0 -> ends (X T) (Y T) (th T) ->
+    least (along X0 Y0 th0) (across X0 Y0 th0) <= T.
+
+  Lemma neighbour X Y th u T delta Xc Yc :
+    flight X Y th u T -> ends Xc Yc (th T) -> distance_sq (X T) (Y T) Xc Yc <= delta * delta ->
+    exists x y,
+      distance_sq (along (X 0) (Y 0) (th 0)) (across (X 0) (Y 0) (th 0)) x y <= delta * delta /\ least x y <= T.
+  Proof.
+    intros fl on near. set (dx := Xc - X T). set (dy := Yc - Y T).
+    exists (along (X 0 + dx) (Y 0 + dy) (th 0)), (across (X 0 + dx) (Y 0 + dy) (th 0)). split.
+    - rewrite reduction_keeps_distances. unfold distance_sq in *. unfold dx, dy.
+      replace (X 0 + (Xc - X T) - X 0) with (Xc - X T) by ring.
+      replace (Y 0 + (Yc - Y T) - Y 0) with (Yc - Y T) by ring. exact near.
+    - apply (is_least _ _ _ _ _ th u T (displaced _ _ _ _ _ dx dy fl)); try reflexivity.
+      simpl. unfold dx, dy. replace (X T + (Xc - X T)) with Xc by ring. replace (Y T + (Yc - Y T)) with Yc by ring.
+      exact on.
+  Qed.
+End Neighbour.
+
 (** A flight that ends at a distance of at most [delta] from a point at which, with its last heading, it would be on the
     circle takes no less than [least_time] of some reduced state that is no farther from its own. *)
 Theorem least_time_of_a_neighbour X Y th u T delta Xc Yc :
   flight X Y th u T -> on_circle Xc Yc (th T) -> distance_sq (X T) (Y T) Xc Yc <= delta * delta ->
   exists x y,
     distance_sq (along (X 0) (Y 0) (th 0)) (across (X 0) (Y 0) (th 0)) x y <= delta * delta /\ least_time x y <= T.
-Proof.
-  intros fl ends near. set (dx := Xc - X T). set (dy := Yc - Y T).
-  exists (along (X 0 + dx) (Y 0 + dy) (th 0)), (across (X 0 + dx) (Y 0 + dy) (th 0)). split.
-  - rewrite reduction_keeps_distances. unfold distance_sq in *. unfold dx, dy.
-    replace (X 0 + (Xc - X T) - X 0) with (Xc - X T) by ring.
-    replace (Y 0 + (Yc - Y T) - Y 0) with (Yc - Y T) by ring. exact near.
-  - apply (least_time_is_least _ _ _ _ _ th u T (displaced _ _ _ _ _ dx dy fl)); try reflexivity.
-    simpl. unfold dx, dy. replace (X T + (Xc - X T)) with Xc by ring. replace (Y T + (Yc - Y T)) with Yc by ring.
-    exact ends.
-Qed.
+Proof. apply neighbour, least_time_is_least. Qed.
 
-Print Assumptions least_time_of_a_neighbour.
+(** The same clockwise. *)
+Theorem least_time_clockwise_of_a_neighbour X Y th u T delta Xc Yc :
+  flight X Y th u T -> on_clockwise_circle Xc Yc (th T) -> distance_sq (X T) (Y T) Xc Yc <= delta * delta ->
+  exists x y,
+    distance_sq (along (X 0) (Y 0) (th 0)) (across (X 0) (Y 0) (th 0)) x y <= delta * delta
+    /\ least_time_clockwise x y <= T.
+Proof. apply neighbour, least_time_clockwise_is_least. Qed.
+
+(** * What all this rests on *)
+
+Definition theorems := (least_time_is_flown, least_time_is_least, least_time_of_a_neighbour,
+  least_time_clockwise_is_flown, least_time_clockwise_is_least, least_time_clockwise_of_a_neighbour).
+
+Print Assumptions theorems.

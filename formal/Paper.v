@@ -12,8 +12,8 @@ Theorem curve_of_the_paper P : 1 <= P < 4 ->
   x * x = - (y * y) + 3 * y + 3 / 2 - sqrt (y * y + 9 * y + 9 / 4).
 Proof.
   intros bounds x y. pose proof (s_of_proper P bounds) as ps. pose proof (proper_inside _ ps) as inside.
-  pose proof (c_sq _ inside) as cc. pose proof (w_sq (s_of P)) as ww. pose proof (w_pos (s_of P)) as wp.
-  destruct ps as [spos [above below]]. unfold x, y, curve_x, curve_y, m_of in *. clear x y.
+  pose proof (s_of_above P bounds) as above. pose proof (c_sq _ inside) as cc. pose proof (w_sq (s_of P)) as ww. pose proof (w_pos (s_of P)) as wp.
+  destruct ps as [spos [_ below]]. unfold x, y, curve_x, curve_y, m_of in *. clear x y.
   set (s := s_of P) in *. set (c := c_of s) in *. set (w := w_of s) in *.
   assert (root : sqrt ((3 * s - w) * s * ((3 * s - w) * s) + 9 * ((3 * s - w) * s) + 9 / 4)
       = 3 * (s * w) - s * s - 3 / 2).

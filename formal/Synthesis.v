@@ -30,6 +30,14 @@ Definition on_circle (X Y th : R) : Prop :=
 Definition along (X Y th : R) : R := X * cos th + Y * sin th.
 Definition across (X Y th : R) : R := - (X * sin th) + Y * cos th.
 
+Lemma from_reduced X0 Y0 th0 :
+  X0 = along X0 Y0 th0 * cos th0 - across X0 Y0 th0 * sin th0 /\ Y0 = along X0 Y0 th0 * sin th0 + across X0 Y0 th0 * cos th0.
+Proof.
+  unfold along, across. pose proof (sin2_cos2 th0) as one. unfold Rsqr in one. split.
+  - transitivity (X0 * (sin th0 * sin th0 + cos th0 * cos th0)); [rewrite one; ring|ring].
+  - transitivity (Y0 * (sin th0 * sin th0 + cos th0 * cos th0)); [rewrite one; ring|ring].
+Qed.
+
 Lemma rd_cos f t l : right_derive f t l -> right_derive (fun s => cos (f s)) t (- sin (f t) * l).
 Proof. apply (rd_comp cos). apply is_derive_cos. Qed.
 
@@ -171,12 +179,8 @@ Theorem least_time_is_flown X0 Y0 th0 :
     /\ X 0 = X0 /\ Y 0 = Y0 /\ th 0 = th0
     /\ let T := least_time (along X0 Y0 th0) (across X0 Y0 th0) in on_circle (X T) (Y T) (th T).
 Proof.
-  set (x0 := along X0 Y0 th0). set (y0 := across X0 Y0 th0).
-  assert (back : X0 = x0 * cos th0 - y0 * sin th0 /\ Y0 = x0 * sin th0 + y0 * cos th0).
-  { unfold x0, y0, along, across. pose proof (sin2_cos2 th0) as one. unfold Rsqr in one. split.
-    - transitivity (X0 * (sin th0 * sin th0 + cos th0 * cos th0)); [rewrite one; ring|ring].
-    - transitivity (Y0 * (sin th0 * sin th0 + cos th0 * cos th0)); [rewrite one; ring|ring]. }
-  destruct back as [backX backY].
+  destruct (from_reduced X0 Y0 th0) as [backX backY].
+  set (x0 := along X0 Y0 th0) in *. set (y0 := across X0 Y0 th0) in *.
   assert (r : exists y1, (y1 = 1 \/ y1 = - (1)) /\ reaches x0 y0 (least_time x0 y0) 0 y1).
   { unfold least_time. destruct (Rle_dec 0 y0) as [up|down].
     - exists 1. split; [left; reflexivity|]. rewrite Rabs_right by lra. apply attained_up, up.
@@ -203,8 +207,3 @@ Proof.
     + replace (- (sin (th T) * sin (th T)) + - cos (th T) * cos (th T)) with (- (1)) by lra.
       rewrite Rabs_Ropp. apply Rabs_R1.
 Qed.
-
-(** * What it rests on *)
-
-Print Assumptions least_time_is_flown.
-Print Assumptions least_time_is_least.

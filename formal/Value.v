@@ -132,7 +132,7 @@ Qed.
 
 Lemma time_lrl_at_least x y : 0 <= y -> outer_sq x y < 4 -> PI / 2 < time_lrl x y.
 Proof.
-  intros up inside. pose proof (arcs_at_least x y up inside). unfold time_lrl, outer_angle.
+  intros up inside. pose proof (arcs_at_least x y up inside). unfold time_lrl. rewrite outer_angle_above by lra.
   pose proof (atan_bound (x / (y + 1))). lra.
 Qed.
 

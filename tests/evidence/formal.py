@@ -28,7 +28,16 @@ MUTANTS = [
         "turn_bounded : forall t, 0 <= t < T -> -2 <= u t",
     ),
     ("Synthesis.v", "  (X = - sin th /\\ Y = cos th) \\/", "  (X * X + Y * Y = 1) \\/"),
-    ("Neighbour.v", "(Y T) Xc Yc <= delta * delta ->", "(Y T) Xc Yc <= delta ->"),
+    (
+        "Neighbour.v",
+        "flight X Y th u T -> on_circle Xc Yc (th T) -> distance_sq (X T) (Y T) Xc Yc <= delta * delta ->",
+        "flight X Y th u T -> on_circle Xc Yc (th T) -> distance_sq (X T) (Y T) Xc Yc <= delta ->",
+    ),
+    ("Below.v", "R := 3 * PI / 2 - lower_angle x y + 3", "R := 3 * PI / 2 - lower_angle x y + 2"),
+    ("Below.v", "R := 5 * PI / 2 - lower_angle", "R := 2 * PI - lower_angle"),
+    ("BelowBound.v", "Rmin right_first (time_lrl x y) else", "right_first else"),
+    ("Clockwise.v", "else if Rle_dec 4 (outer_sq x y)", "else if Rle_dec 3 (outer_sq x y)"),
+    ("Clockwise.v", ": Prop := X = - sin th /\\ Y = cos th.", ": Prop := X * X + Y * Y = 1."),
     ("Motion.v", "right_derive x t (1 + u t * y t);", "right_derive x t (2 + u t * y t);"),
 ]
 
@@ -60,6 +69,23 @@ def least_time(known, x, y):
         P = evaluate(known, "outer_sq", x, y)
         name = "time_lrl" if P < 4.0 and x <= evaluate(known, "curve_x", P) else "time_rl"
     return name, evaluate(known, name, x, y)
+
+
+def least_time_clockwise(known, x, y):
+    """The same for the clockwise circle and any state, as `least_time_clockwise` and `least_time_below` choose it."""
+    P = evaluate(known, "outer_sq", x, y)
+    if y >= 0.0 or P >= 4.0:
+        return least_time(known, x, abs(y))
+    names = ["time_rl_left", "time_rl_right"] + ["time_lrl"] * is_left_below(known, x, y, P)
+    return min(((name, evaluate(known, name, x, y)) for name in names), key=lambda choice: choice[1])
+
+
+def is_left_below(known, x, y, P):
+    """Whether LRL is considered at a state below the axis: `left_below`."""
+    if x >= 0.0 or evaluate(known, "discriminant", P) <= 0.0:
+        return False
+    s = evaluate(known, "s_of", P)
+    return evaluate(known, "outer_angle", x, y) <= evaluate(known, "turn_to", evaluate(known, "m_of", s), s)
 
 
 FUNCTIONS = {"sqrt": lambda v: math.sqrt(max(v, 0.0)), "atan": math.atan, "asin": math.asin}
