@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 31df60ae4723e40e68952786edb2c5b6c1db22a55b63c0d38fef8be0a205bd81
+ * SHA-256 of the source: 3b807e8730ce4f5f1016bb53395475a4c1f72a01c57285e9a67316e6e4878dac
  */
 #include "loiter.h"
 
@@ -63,11 +63,6 @@ typedef uint64_t unsigned_integer;
 #else
 #define APART
 #endif
-
-/* Whether a step may be so long, seconds. */
-static inline bool is_step(real dt_s) {
-    return dt_s > REAL(0.0) && dt_s <= (real)LOITER_LONGEST_STEP_S;
-}
 
 typedef loiter_Rings Rings;
 
@@ -138,9 +133,9 @@ typedef struct { real a0; Extremal a1; } real_Extremal;
  */
 typedef struct { real x, y, R, arc_tolerance, outer, inner, fold; } Start;
 
-typedef struct { real_2 a0; real a1; } real_2_real;
-
 typedef struct { real a0, a1, a2; } real_3;
+
+typedef struct { real_2 a0; real a1; } real_2_real;
 
 typedef struct { integer a0; real a1, a2, a3; } integer_real_3;
 
@@ -584,9 +579,6 @@ static const WindCandidate NO_CANDIDATE = {REAL(0.0), 0, {REAL_INFINITY, 0, REAL
 #define WIND_TIE_TOLERANCE REAL(1e-12)
 #endif
 
-/* The arc of the circle that is held for `hold_tolerance`. */
-#define UNKNOWN_ARC REAL(0.0015339807878856412) /* TWO_PI / 4096.0 */
-
 /* In cells within this many half widths of the end of the best path, bounds around that end are tried too. */
 #define NEAR_BEST REAL(8.0)
 
@@ -888,34 +880,55 @@ static inline real_2 two_product(real a, real b) {
     return MAKE(real_2){p, ah * bh - p + ah * bl + al * bh + al * bl};
 }
 
-/* The difference of squares x^2 + (y - R) (y + R + k), with nearly full relative accuracy even near zero.
+/* The squared distances rp^2 - (R + 1)^2, rm^2 - (R - 1)^2 and rp^2 - (R - 3)^2 beyond three circles.
  *
- * With k = 2 it is rp^2 - (R + 1)^2: the squared distance from (0, -1) less the squared radius of the last circle
- * of L. With k = -2 it is rm^2 - (R - 1)^2, the same for R about (0, 1). Near zero it is a small difference of
- * large numbers, and T varies with its square root: in plain doubles T would lose half of its digits there.
+ * They are `beyond` with R and 2, R and -2, 2 - R and 2. The last is the sum u + d + low, with an error of third
+ * order only: at R = 1 + 2e-14 there are doubles next to (-sqrt(3), 0) where it is 8e-32, and where T would lose
+ * 1e-9 for the terms that `beyond` leaves out. The others differ from it by -8 (R - 1) and -4 (y + R - 2); for them
+ * an error of second order is enough, since next to their circles a single arc replaces the words that depend on
+ * them.
  */
-static inline real beyond(real x, real y, real R, real k) {
-    const real_2 two_sum_1 = two_sum(y, -R);
+static inline real_3 beyond_circles(real x, real y, real R) {
+    const real_2 two_sum_1 = two_sum(y, R - REAL(2.0));
     const real s = two_sum_1.a0, es = two_sum_1.a1;
-    const real_2 two_sum_2 = two_sum(y, R);
+    const real_2 two_sum_2 = two_sum(y, REAL(2.0) - R);
     real t = two_sum_2.a0;
     const real et = two_sum_2.a1;
-    const real_2 two_sum_3 = two_sum(t, k);
+    const real_2 two_sum_3 = two_sum(t, REAL(2.0));
     t = two_sum_3.a0;
     const real ek = two_sum_3.a1;
-    const real_2 two_product_4 = two_product(s, t);
-    const real p = two_product_4.a0, ep = two_product_4.a1;
-    const real_2 two_product_5 = two_product(x, x);
-    const real q = two_product_5.a0, eq = two_product_5.a1;
-    const real_2 two_sum_6 = two_sum(q, p);
-    const real u = two_sum_6.a0, eu = two_sum_6.a1;
-    return u + (eu + (ep + eq + s * (et + ek) + t * es));
+    const real_2 two_sum_4 = two_sum(et, ek);
+    const real e = two_sum_4.a0, ee = two_sum_4.a1;
+    const real_2 two_product_5 = two_product(s, t);
+    const real p = two_product_5.a0, ep = two_product_5.a1;
+    const real_2 two_product_6 = two_product(x, x);
+    const real q = two_product_6.a0, eq = two_product_6.a1;
+    const real_2 two_product_7 = two_product(s, e);
+    const real v = two_product_7.a0, ev = two_product_7.a1;
+    const real_2 two_product_8 = two_product(t, es);
+    const real w = two_product_8.a0, ew = two_product_8.a1;
+    const real_2 two_sum_9 = two_sum(q, p);
+    const real u = two_sum_9.a0, eu = two_sum_9.a1;
+    const real_2 two_sum_10 = two_sum(ep, eq);
+    const real a = two_sum_10.a0, ea = two_sum_10.a1;
+    const real_2 two_sum_11 = two_sum(v, w);
+    const real b = two_sum_11.a0, eb = two_sum_11.a1;
+    const real_2 two_sum_12 = two_sum(a, b);
+    const real c = two_sum_12.a0, ec = two_sum_12.a1;
+    const real_2 two_sum_13 = two_sum(eu, c);
+    const real d = two_sum_13.a0, ed = two_sum_13.a1;
+    const real low = es * e + s * ee + (ev + ew + (ea + eb + (ec + ed)));
+    const real_2 two_sum_14 = two_sum(u, -REAL(8.0) * (R - REAL(1.0)));
+    const real f = two_sum_14.a0, ef = two_sum_14.a1;
+    const real_2 two_sum_15 = two_sum(u, -REAL(4.0) * s);
+    const real g = two_sum_15.a0, eg = two_sum_15.a1;
+    return MAKE(real_3){f + (ef + d), g + (eg + d - REAL(4.0) * es), u + d + low};
 }
 
 /* The start at a reduced state. */
 static inline Start start_at(real x, real y, real R, real arc_tolerance) {
-    const real outer = beyond(x, y, R, REAL(2.0)), inner = beyond(x, y, R, -REAL(2.0)), fold = beyond(x, y,
-            REAL(2.0) - R, REAL(2.0));
+    const real_3 beyond_circles_1 = beyond_circles(x, y, R);
+    const real outer = beyond_circles_1.a0, inner = beyond_circles_1.a1, fold = beyond_circles_1.a2;
     return MAKE(Start){x, y, R, arc_tolerance, outer, inner, fold};
 }
 
@@ -953,8 +966,8 @@ static inline real_2_real onto_axis(real x, real y, real end_, real arc_toleranc
 
 /* LSL: onto the axis at (-c, 0), straight to (-X, 0), X = sqrt(R (R + 2)), left for acos(1/(R + 1)).
  *
- * `y` is the ordinate of the start, with the opposite sign for RSL. `joins` says whether c >= X, decided by
- * `exact.beyond` as in the selection of words; rounding may still make c - X negative.
+ * `y` is the ordinate of the start, with the opposite sign for RSL. `joins` says whether c >= X, decided as in the
+ * selection of words; rounding may still make c - X negative.
  */
 static inline Extremal external_join(integer word, real y, const Start *start, bool joins) {
     const real R = start->R;
@@ -1105,10 +1118,9 @@ static inline Extremal lrl(const Start *start) {
     return MAKE(Extremal){WORD_LRL, first, exists ? REAL(0.0) : REAL_INFINITY, middle, last};
 }
 
-/* Left, straight, right, from inside a circle of R >= 2: rp <= R - 1. */
+/* Left, straight, right, from inside a circle of R >= 2: rp <= R - 1, that is rp^2 - (R - 3)^2 <= 4 (R - 2). */
 static inline Extremal lsr(const Start *start) {
-    return internal_join(WORD_LSR, start->y, start, beyond(start->x, start->y, -start->R, REAL(2.0)) <=
-            REAL(0.0));
+    return internal_join(WORD_LSR, start->y, start, start->fold <= REAL(4.0) * (start->R - REAL(2.0)));
 }
 
 /* Whether an extremal ends at the target. */
@@ -1861,11 +1873,11 @@ static inline WindSearch begin_search(const WindProblem *problem) {
             return search;
         }
     }
-    const integer each_side_1[2] = {1, -1};
+    const integer each_one_1[2] = {1, -1};
     for (int i_1 = 0; i_1 < 2; i_1++) {
-        const integer side = each_side_1[i_1];
-        if (problem->side != -side && is_on_circle(side, &scene)) {
-            search.best = start_on_circle(side, &scene);
+        const integer one = each_one_1[i_1];
+        if (problem->side != -one && is_on_circle(one, &scene)) {
+            search.best = start_on_circle(one, &scene);
         }
     }
     if (search.best.side != 0) {
@@ -2457,13 +2469,13 @@ static inline CellVisit next_leaf(integer leaf) {
 
 /* The search at the beginning of its next stage, on the other side; the result after the last one. */
 static inline void next_stage(WindSearch *search) {
-    const integer stage = search->stage + 1, side = -search->side;
+    const integer stage = search->stage + 1, one = -search->one;
     if (stage == ENDED) {
         end_search(search);
         return;
     }
     CellVisit visit = FIRST_CELL;
-    if (stage > COARSE_OTHER || search->sides == -side) {
+    if (stage > COARSE_OTHER || search->sides == -one) {
         const integer first = search->others.first, second = search->others.second, third =
                 search->others.third, fourth = search->others.fourth;
         visit = next_leaf((((first | second) | third) | fourth) != 0 ? -1 : shift_left(FIRST_CELLS, LEAF));
@@ -2471,7 +2483,7 @@ static inline void next_stage(WindSearch *search) {
     const Leaves new_1 = search->others;
     const Leaves new_2 = search->leaves;
     search->stage = stage;
-    search->side = side;
+    search->one = one;
     search->visit = visit;
     search->before = NO_LEAF_END;
     search->leaves = new_1;
@@ -2534,7 +2546,7 @@ static inline void refine_path(WindSearch *search) {
     if (search->stage == JOINING) {
         /* The better side is searched first, which shortens the search on the other side. */
         search->best = found;
-        search->side = found.side != 0 ? -found.side : -1;
+        search->one = found.side != 0 ? -found.side : -1;
         if (found.path.time > REAL(0.0)) {
             next_stage(search);
             return;
@@ -2570,14 +2582,14 @@ static inline WindCandidate best_of_joins(integer side, const WindScene *scene, 
 static inline void join_one_side(WindSearch *search) {
     WindCandidate best = search->best;
     const WindScene scene = search->scene;
-    const integer side = search->side;
-    if (search->sides != -side) {
-        best = best_of_joins(side, &scene, best);
+    const integer one = search->one;
+    if (search->sides != -one) {
+        best = best_of_joins(one, &scene, best);
     }
-    const Refinement refinement = side == 1 ? NO_REFINEMENT : begin_refinement(&best, TWO_PI / (real)JOINS, &scene);
+    const Refinement refinement = one == 1 ? NO_REFINEMENT : begin_refinement(&best, TWO_PI / (real)JOINS, &scene);
     const integer new_1 = search->left - 1;
     search->best = best;
-    search->side = -side;
+    search->one = -one;
     search->left = new_1;
     search->refinement = refinement;
     return;
@@ -3136,7 +3148,7 @@ static inline Leaves with_leaf(Leaves leaves, integer number) {
  * Cells are visited in the order of their phases, and halved as long as a word may join inside them early enough.
  */
 static inline void coarse_search(WindSearch *search) {
-    const integer side = search->side;
+    const integer one = search->one;
     const WindScene scene = search->scene;
     const WindCandidate best = search->best;
     CellVisit visit = search->visit;
@@ -3147,10 +3159,10 @@ static inline void coarse_search(WindSearch *search) {
     while (left > 0 && start.path.time == REAL_INFINITY && visit.number < shift_left(FIRST_CELLS, visit.level)) {
         left -= 1;
         const real_2 middle_of_1 = middle_of(visit);
-        integer words = words_inside(middle_of_1.a0, middle_of_1.a1, (visit.words & ALL_WORDS), side, &scene,
+        integer words = words_inside(middle_of_1.a0, middle_of_1.a1, (visit.words & ALL_WORDS), one, &scene,
                 best.path.time);
         if (words != 0 && visit.level >= COARSE) {
-            const integer_LeafEnd_JoinPoint examine_cell_2 = examine_cell(visit, words, side, &scene, &before,
+            const integer_LeafEnd_JoinPoint examine_cell_2 = examine_cell(visit, words, one, &scene, &before,
                     &best);
             words = examine_cell_2.a0;
             before = examine_cell_2.a1;
@@ -3167,7 +3179,7 @@ static inline void coarse_search(WindSearch *search) {
     search->leaves = leaves;
     search->left = left;
     if (start.path.time < REAL_INFINITY) {
-        search->refinement = refinement_from(&start, side, TWO_PI / (real)shift_left(FIRST_CELLS, LEAF));
+        search->refinement = refinement_from(&start, one, TWO_PI / (real)shift_left(FIRST_CELLS, LEAF));
         return;
     }
     if (visit.number < shift_left(FIRST_CELLS, visit.level)) {
@@ -3190,9 +3202,9 @@ static inline real time_tolerance(const WindCandidate *best, const WindScene *sc
     return WIND_TIE_TOLERANCE * (REAL(1.0) + scene->R + best->path.time);
 }
 
-/* The tolerance after `MOST_VISITS` cells: an upper bound on the time to hold the circle through `UNKNOWN_ARC`. */
+/* The tolerance after `MOST_VISITS` cells: an upper bound on the time to hold the circle through 2 pi/4096. */
 static inline real hold_tolerance(const WindScene *scene) {
-    return scene->R / (REAL(1.0) - length(scene->wx, scene->wy)) * UNKNOWN_ARC;
+    return scene->R / (REAL(1.0) - length(scene->wx, scene->wy)) * (TWO_PI / REAL(4096.0));
 }
 
 /* The two arcs of which the best path consists, up to rounding; `NO_CORNER` for another path. */
@@ -3401,7 +3413,7 @@ static inline real_WindCandidate compare_at_end(CellVisit visit, integer side, c
 
 /* The search after cells inside the leaves of one side that are left, until a path has to be refined. */
 static inline void fine_search(WindSearch *search) {
-    const integer side = search->side;
+    const integer one = search->one;
     const WindScene scene = search->scene;
     const WindCandidate best = search->best;
     const Leaves leaves = search->leaves;
@@ -3421,9 +3433,9 @@ static inline void fine_search(WindSearch *search) {
         const real tolerance = visits <= MOST_VISITS ? time_tolerance(&best, &scene) : hold_tolerance(&scene);
         const real sooner = best.path.time - tolerance;
         const real_2 middle_of_1 = middle_of(visit);
-        integer words = words_inside(middle_of_1.a0, middle_of_1.a1, (visit.words & ALL_WORDS), side, &scene,
+        integer words = words_inside(middle_of_1.a0, middle_of_1.a1, (visit.words & ALL_WORDS), one, &scene,
                 sooner);
-        if (words != 0 && side == best.side) {
+        if (words != 0 && one == best.side) {
             if (best.path.time < compared) {
                 corner = corner_of(&best, &scene);
                 compared = best.path.time;
@@ -3431,7 +3443,7 @@ static inline void fine_search(WindSearch *search) {
             words = words_beside_best(visit, words, &scene, &best, corner, sooner);
         }
         if (words != 0 && integer_modulo(LAST - visit.level, 2) == 0 && visit.level > LEAF) {
-            const real_WindCandidate compare_at_end_2 = compare_at_end(visit, side, &scene, &best);
+            const real_WindCandidate compare_at_end_2 = compare_at_end(visit, one, &scene, &best);
             const real earliest = compare_at_end_2.a0;
             start = compare_at_end_2.a1;
             cell = MAKE(OpenCell){words, earliest, tolerance};
@@ -5275,7 +5287,7 @@ static void step_with(loiter_law *law, const loiter_measurement *m, real dt_s, l
 
 int loiter_law_step_known(loiter_law *law, const loiter_measurement *measurement, loiter_real dt_s,
                           loiter_command *command) {
-    if (!is_step(dt_s)) {
+    if (!(dt_s > REAL(0.0) && dt_s <= (real)LOITER_LONGEST_STEP_S)) {
         return LOITER_BAD_STEP;
     }
     step_with(law, measurement, dt_s, command);
@@ -5283,7 +5295,7 @@ int loiter_law_step_known(loiter_law *law, const loiter_measurement *measurement
 }
 
 int loiter_law_step(loiter_law *law, const loiter_measurement *measurement, loiter_real dt_s, loiter_command *command) {
-    if (is_step(dt_s)) {
+    if (dt_s > REAL(0.0) && dt_s <= (real)LOITER_LONGEST_STEP_S) {
         law->vehicle = fly_as_declared(&law->vehicle, law->memory.command.bank_deg, law->memory.step_s);
     }
     return loiter_law_step_known(law, measurement, dt_s, command);

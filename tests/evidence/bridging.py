@@ -12,6 +12,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Iterator
 from contextlib import AbstractContextManager
+from fractions import Fraction
 from itertools import product
 from math import inf, ldexp, nextafter, sqrt
 from random import Random
@@ -35,7 +36,7 @@ NO_TURN = arb(2) ** -140
 # How far from the target a path ends at most, in units, and one that is LRL: theorem 5 of docs/bridging.md.
 LIMIT, LIMIT_OF_LRL = 256.0, 2048.0
 
-# How late an answer is at most, in units, where theorem 6 holds; no later one is known elsewhere.
+# How late an answer is at most, in units, where LRL does not exist: theorem 6. No later one is known elsewhere.
 LATEST = 256.0
 
 
@@ -58,7 +59,7 @@ class Case(NamedTuple):
     family: str
 
 
-# States at which earlier formulas of the kernel were late by 3e3 to 2e6 units, missed by 1e3, or in the last two were
+# States at which earlier formulas of the kernel were late by 3e3 to 2e6 units, missed by 1e3, or past the target were
 # late by a whole turn. The search begins with them.
 ONCE_WRONG = [
     Case(-2.9652998050290914e-07, 1.0000000000000315, 3.0000000000000013, -1, "centre of L"),
@@ -68,6 +69,9 @@ ONCE_WRONG = [
     Case(-6.0911746759290757e-05, -0.7320507985259724, 2.732050791602569, 1, "corner"),
     Case(-6.440274546555344e-13, 63.25000000000033, 63.24999999999972, 1, "past the target"),
     Case(-6.355599708859868e-13, 63.25000000000033, 63.24999999999972, 1, "past the target"),
+    Case(-1.7320508075688574, 6.517686263266475e-16, 1.0000000000000169, 1, "circle and axis"),
+    Case(-1.732050807568854, 2.034077475764484e-16, 1.00000000000002, 1, "circle and axis"),
+    Case(-1.7320508075686263, 4.3436770294091844e-20, 1.0000000000002174, 1, "circle and axis"),
 ]
 
 
@@ -319,6 +323,29 @@ def switching(random: Random, R: float) -> tuple[str, float, float]:
     return "switching curve", nudged(random, x), nudged(random, y)
 
 
+def double_root(random: Random, R: float) -> tuple[str, float, float]:
+    """A state on a short first arc of LRL, next to where its two roots meet: `w/s` of (P1) next to 2 + sqrt(3)."""
+    K, short = R * (R + 2.0), ldexp(random.uniform(1.0, 2.0), -random.randint(1, 50))
+    q = max(2.0 + sqrt(3.0) - short, 1.5)
+    s = min(sqrt(K / (q * q - 1.0)), 1.0)
+    m, back = 3.0 * s - q * s, random.choice((0.0, short * random.random(), short * random.uniform(0.0, 8.0), 1e-3))
+    x, y = m * sqrt(max(1.0 - s * s, 0.0)), m * s
+    cb, sb = float(np.cos(back)), float(np.sin(back))
+    return "double root", nudged(random, x * cb - (y + 1.0) * sb), nudged(random, (y + 1.0) * cb + x * sb - 1.0)
+
+
+def on_axis(random: Random, R: float) -> tuple[str, float, float]:
+    """A state next to y = 0 whose difference of squares from a circle is as small as doubles allow: 1e-32 and less."""
+    centre, radius = random.choice(((-1, Fraction(R) + 1), (1, Fraction(R) - 1), (-1, Fraction(R) - 3)))
+    x = random.choice((-1.0, 1.0)) * sqrt(max(float(radius * radius - 1), 0.0))
+    for _ in range(random.choice((0, 1, 2, 40))):
+        x = nextafter(x, random.choice((-inf, inf)))
+    beyond = Fraction(x) ** 2 + 1 - radius * radius
+    y = beyond / (2 * centre)
+    y = (beyond + y * y) / (2 * centre)
+    return "circle and axis", nudged(random, x) if random.random() < 0.3 else x, float(y) if abs(y) < 1 else 0.0
+
+
 def corner(random: Random, R: float) -> tuple[str, float, float]:
     """A state next to rp = |3 - R|, below the centre: where LRL, LR and LSR meet for R near 1 + sqrt(3)."""
     r = abs(3.0 - R) - random.choice((0.0, ldexp(random.random(), -random.randint(1, 60))))
@@ -336,7 +363,8 @@ def anywhere(random: Random, R: float) -> tuple[str, float, float]:
 def drawn(random: Random) -> Case:
     """A random adversarial case."""
     R = radius(random)
-    family = random.choices((on_circle, centre, switching, corner, anywhere), (6, 2, 3, 2, 1))[0]
+    families = on_circle, centre, switching, double_root, on_axis, corner, anywhere
+    family = random.choices(families, (6, 2, 3, 1, 1, 2, 1))[0]
     if family is corner:
         R = max(1.0 + sqrt(3.0) + random.choice((-1.0, 1.0)) * ldexp(random.random(), -random.randint(0, 52)), 1.0)
     name, x, y = family(random, R)

@@ -14,7 +14,7 @@ from loiter.cli.app import main
 from loiter.evidence.proof import balls, lemmas, rounding
 from loiter.evidence.proof.algebra import flint
 from loiter.evidence.proof.balls import Interval, ball
-from loiter.evidence.proof.rounded import BRANCHES, Rounded, Undecided, arctangent, root
+from loiter.evidence.proof.rounded import BRANCHES, UNIT, Rounded, Undecided, arctangent, root
 from loiter.evidence.proof.sign_proofs import NotProved
 from loiter.kernel import angles, exact
 from loiter.kernel.still_air import extremals
@@ -110,21 +110,24 @@ def test_a_sum_of_angles_that_loses_digits_is_not_certain(monkeypatch):
         rounding.sum_of_angles()
 
 
-def test_beyond_has_the_relative_error_that_the_theorem_assumes():
-    """In exact fractions, next to the circles: farther than three roundings, which is the hypothesis."""
+def test_differences_of_squares_have_the_error_that_the_theorem_assumes():
+    """(B3) of docs/bridging.md, in fractions, next to the circles and to y = 0, where second order is not enough."""
     random, worst = Random(4), 0.0
-    for _ in range(20_000):
-        R = 1.0 + 10.0 ** random.uniform(-12.0, 4.0)
-        x, y = (random.choice((-1.0, 1.0)) * R * 10.0 ** random.uniform(-6.0, 2.0) for _ in range(2))
-        k, circle = random.choice(((2.0, R), (-2.0, R), (2.0, 2.0 - R)))
-        if random.random() < 0.5:
-            square = (circle - y) * (circle + y + k)
-            if square > 0.0:
-                x = square**0.5 * (1.0 + random.choice((-1.0, 1.0)) * 10.0 ** random.uniform(-14.0, -1.0))
-        exactly = Fraction(x) ** 2 + (Fraction(y) - Fraction(circle)) * (Fraction(y) + Fraction(circle) + Fraction(k))
-        if abs(exactly) > 2.0**-46 * (1.0 + abs(x) + abs(y) + R) ** 2:
-            worst = max(worst, float(abs(Fraction(exact.beyond(x, y, circle, k)) - exactly) / abs(exactly)))
-    assert 2.0**-54 < worst <= rounding.BEYOND
+    for _ in range(4_000):
+        R = 1.0 + 10.0 ** random.uniform(-16.0, 4.0)
+        y = random.choice((-1.0, 1.0, R, 2.0 - R)) + random.choice((-1.0, 1.0)) * 10.0 ** random.uniform(-18.0, 2.0)
+        y = random.choice((y, y - 1.0, 10.0 ** random.uniform(-18.0, 0.0)))
+        n, lower, upper = random.choice(((0, R, -R - 2.0), (1, R, 2.0 - R), (2, 2.0 - R, R - 4.0)))
+        square = (lower - y) * (y - upper)
+        x = square**0.5 if square > 0.0 else 10.0 ** random.uniform(-18.0, 1.0)
+        centre, radius = Fraction((-1, 1, -1)[n]), Fraction(R) + (1, -1, -3)[n]
+        exactly = Fraction(x) ** 2 + (Fraction(y) - centre) ** 2 - radius**2
+        along, across = Fraction(y) + Fraction(R) - 2, Fraction(y) + 2 - Fraction(R)
+        bracket = Fraction(x) ** 2 + abs(along) * (abs(across) + abs(across + 2))
+        share = 72.0 * UNIT**3 if n == 2 else 26.0 * UNIT**2
+        error = abs(Fraction(exact.beyond_circles(x, y, R)[n]) - exactly)
+        worst = max(worst, float(error / (Fraction(2.1 * UNIT) * abs(exactly) + Fraction(share) * bracket)))
+    assert 0.1 < worst <= 1.0
 
 
 # The arithmetic itself

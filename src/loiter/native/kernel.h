@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 6058865155faab7ac17c1ff323e98e902b160b57c53688ac61d6a1f229968da3
+ * SHA-256 of the source: aa5fd1091b13abd07e7bec0e40ce0223400a1a0a17a1b05f57f297c6babe6a20
  */
 #ifndef LOITER_KERNEL_H
 #define LOITER_KERNEL_H
@@ -84,9 +84,9 @@ typedef struct { real a0; Extremal a1; } real_Extremal;
  */
 typedef struct { real x, y, R, arc_tolerance, outer, inner, fold; } Start;
 
-typedef struct { real_2 a0; real a1; } real_2_real;
-
 typedef struct { real a0, a1, a2; } real_3;
+
+typedef struct { real_2 a0; real a1; } real_2_real;
 
 typedef struct { integer a0; real a1, a2, a3; } integer_real_3;
 
@@ -166,14 +166,14 @@ typedef struct { integer words; real earliest, tolerance; } OpenCell;
 
 /* A search for the fastest entry, which `advance_search` continues: its stage, and what is known so far.
  *
- * The sides of the circle that are asked for are `sides`, that which is searched now is `side`. `best` is the
+ * The sides of the circle that are asked for are `sides`, that which is searched now is `one`. `best` is the
  * fastest path found, `beside` the entry beside the circle that counts, too. `visit` is the next cell; `before` the
  * end of the leaf before it, `leaves` those that are left on this side, and `others` on the other one. `corner` is
  * that of the best path, which took the time `compared`, and `visits` the number of cells so far. While there is a
  * refinement, it is continued first; `cell` is the cell that waits for it. `left` is the number of steps that may
  * follow at once, and `entry` the result once the stage is ENDED.
  */
-typedef struct { integer stage, sides, side; WindScene scene; WindCandidate best; EntryBeside beside; CellVisit
+typedef struct { integer stage, sides, one; WindScene scene; WindCandidate best; EntryBeside beside; CellVisit
         visit; LeafEnd before; Leaves leaves, others; Corner corner; real compared; integer visits; Refinement
         refinement; OpenCell cell; integer left; WindEntry entry; } WindSearch;
 
@@ -388,9 +388,6 @@ static const WindCandidate NO_CANDIDATE = {0.0, 0, {INFINITY, 0, 0.0, 0.0, 0.0, 
  */
 #define WIND_TIE_TOLERANCE 1e-12
 
-/* The arc of the circle that is held for `hold_tolerance`. */
-#define UNKNOWN_ARC 0.0015339807878856412 /* TWO_PI / 4096.0 */
-
 /* In cells within this many half widths of the end of the best path, bounds around that end are tried too. */
 #define NEAR_BEST 8.0
 
@@ -512,33 +509,55 @@ static inline real_2 two_product(real a, real b) {
     return (real_2){p, ah * bh - p + ah * bl + al * bh + al * bl};
 }
 
-/* The difference of squares x^2 + (y - R) (y + R + k), with nearly full relative accuracy even near zero.
+/* The squared distances rp^2 - (R + 1)^2, rm^2 - (R - 1)^2 and rp^2 - (R - 3)^2 beyond three circles.
  *
- * With k = 2 it is rp^2 - (R + 1)^2: the squared distance from (0, -1) less the squared radius of the last circle
- * of L. With k = -2 it is rm^2 - (R - 1)^2, the same for R about (0, 1). Near zero it is a small difference of
- * large numbers, and T varies with its square root: in plain doubles T would lose half of its digits there.
+ * They are `beyond` with R and 2, R and -2, 2 - R and 2. The last is the sum u + d + low, with an error of third
+ * order only: at R = 1 + 2e-14 there are doubles next to (-sqrt(3), 0) where it is 8e-32, and where T would lose
+ * 1e-9 for the terms that `beyond` leaves out. The others differ from it by -8 (R - 1) and -4 (y + R - 2); for them
+ * an error of second order is enough, since next to their circles a single arc replaces the words that depend on
+ * them.
  */
-static inline real beyond(real x, real y, real R, real k) {
-    const real_2 two_sum_1 = two_sum(y, -R);
+static inline real_3 beyond_circles(real x, real y, real R) {
+    const real_2 two_sum_1 = two_sum(y, R - 2.0);
     const real s = two_sum_1.a0, es = two_sum_1.a1;
-    const real_2 two_sum_2 = two_sum(y, R);
+    const real_2 two_sum_2 = two_sum(y, 2.0 - R);
     real t = two_sum_2.a0;
     const real et = two_sum_2.a1;
-    const real_2 two_sum_3 = two_sum(t, k);
+    const real_2 two_sum_3 = two_sum(t, 2.0);
     t = two_sum_3.a0;
     const real ek = two_sum_3.a1;
-    const real_2 two_product_4 = two_product(s, t);
-    const real p = two_product_4.a0, ep = two_product_4.a1;
-    const real_2 two_product_5 = two_product(x, x);
-    const real q = two_product_5.a0, eq = two_product_5.a1;
-    const real_2 two_sum_6 = two_sum(q, p);
-    const real u = two_sum_6.a0, eu = two_sum_6.a1;
-    return u + (eu + (ep + eq + s * (et + ek) + t * es));
+    const real_2 two_sum_4 = two_sum(et, ek);
+    const real e = two_sum_4.a0, ee = two_sum_4.a1;
+    const real_2 two_product_5 = two_product(s, t);
+    const real p = two_product_5.a0, ep = two_product_5.a1;
+    const real_2 two_product_6 = two_product(x, x);
+    const real q = two_product_6.a0, eq = two_product_6.a1;
+    const real_2 two_product_7 = two_product(s, e);
+    const real v = two_product_7.a0, ev = two_product_7.a1;
+    const real_2 two_product_8 = two_product(t, es);
+    const real w = two_product_8.a0, ew = two_product_8.a1;
+    const real_2 two_sum_9 = two_sum(q, p);
+    const real u = two_sum_9.a0, eu = two_sum_9.a1;
+    const real_2 two_sum_10 = two_sum(ep, eq);
+    const real a = two_sum_10.a0, ea = two_sum_10.a1;
+    const real_2 two_sum_11 = two_sum(v, w);
+    const real b = two_sum_11.a0, eb = two_sum_11.a1;
+    const real_2 two_sum_12 = two_sum(a, b);
+    const real c = two_sum_12.a0, ec = two_sum_12.a1;
+    const real_2 two_sum_13 = two_sum(eu, c);
+    const real d = two_sum_13.a0, ed = two_sum_13.a1;
+    const real low = es * e + s * ee + (ev + ew + (ea + eb + (ec + ed)));
+    const real_2 two_sum_14 = two_sum(u, -8.0 * (R - 1.0));
+    const real f = two_sum_14.a0, ef = two_sum_14.a1;
+    const real_2 two_sum_15 = two_sum(u, -4.0 * s);
+    const real g = two_sum_15.a0, eg = two_sum_15.a1;
+    return (real_3){f + (ef + d), g + (eg + d - 4.0 * es), u + d + low};
 }
 
 /* The start at a reduced state. */
 static inline Start start_at(real x, real y, real R, real arc_tolerance) {
-    const real outer = beyond(x, y, R, 2.0), inner = beyond(x, y, R, -2.0), fold = beyond(x, y, 2.0 - R, 2.0);
+    const real_3 beyond_circles_1 = beyond_circles(x, y, R);
+    const real outer = beyond_circles_1.a0, inner = beyond_circles_1.a1, fold = beyond_circles_1.a2;
     return (Start){x, y, R, arc_tolerance, outer, inner, fold};
 }
 
@@ -575,8 +594,8 @@ static inline real_2_real onto_axis(real x, real y, real end_, real arc_toleranc
 
 /* LSL: onto the axis at (-c, 0), straight to (-X, 0), X = sqrt(R (R + 2)), left for acos(1/(R + 1)).
  *
- * `y` is the ordinate of the start, with the opposite sign for RSL. `joins` says whether c >= X, decided by
- * `exact.beyond` as in the selection of words; rounding may still make c - X negative.
+ * `y` is the ordinate of the start, with the opposite sign for RSL. `joins` says whether c >= X, decided as in the
+ * selection of words; rounding may still make c - X negative.
  */
 static inline Extremal external_join(integer word, real y, Start start, bool joins) {
     const real R = start.R;
@@ -715,9 +734,9 @@ static inline Extremal lrl(Start start) {
     return (Extremal){WORD_LRL, first, exists ? 0.0 : INFINITY, middle, last};
 }
 
-/* Left, straight, right, from inside a circle of R >= 2: rp <= R - 1. */
+/* Left, straight, right, from inside a circle of R >= 2: rp <= R - 1, that is rp^2 - (R - 3)^2 <= 4 (R - 2). */
 static inline Extremal lsr(Start start) {
-    return internal_join(WORD_LSR, start.y, start, beyond(start.x, start.y, -start.R, 2.0) <= 0.0);
+    return internal_join(WORD_LSR, start.y, start, start.fold <= 4.0 * (start.R - 2.0));
 }
 
 /* Whether an extremal ends at the target. */
@@ -1630,11 +1649,11 @@ static inline WindSearch begin_search(WindProblem problem) {
             return search;
         }
     }
-    const integer each_side_1[2] = {1, -1};
+    const integer each_one_1[2] = {1, -1};
     for (int i_1 = 0; i_1 < 2; i_1++) {
-        const integer side = each_side_1[i_1];
-        if (problem.side != -side && is_on_circle(side, scene)) {
-            search.best = start_on_circle(side, scene);
+        const integer one = each_one_1[i_1];
+        if (problem.side != -one && is_on_circle(one, scene)) {
+            search.best = start_on_circle(one, scene);
         }
     }
     if (search.best.side != 0) {
@@ -2218,13 +2237,13 @@ static inline CellVisit next_leaf(integer leaf) {
 
 /* The search at the beginning of its next stage, on the other side; the result after the last one. */
 static inline void next_stage(WindSearch *search) {
-    const integer stage = search->stage + 1, side = -search->side;
+    const integer stage = search->stage + 1, one = -search->one;
     if (stage == ENDED) {
         end_search(search);
         return;
     }
     CellVisit visit = FIRST_CELL;
-    if (stage > COARSE_OTHER || search->sides == -side) {
+    if (stage > COARSE_OTHER || search->sides == -one) {
         const integer first = search->others.first, second = search->others.second, third =
                 search->others.third, fourth = search->others.fourth;
         visit = next_leaf((((first | second) | third) | fourth) != 0 ? -1 : shift_left(FIRST_CELLS, LEAF));
@@ -2232,7 +2251,7 @@ static inline void next_stage(WindSearch *search) {
     const Leaves new_1 = search->others;
     const Leaves new_2 = search->leaves;
     search->stage = stage;
-    search->side = side;
+    search->one = one;
     search->visit = visit;
     search->before = NO_LEAF_END;
     search->leaves = new_1;
@@ -2295,7 +2314,7 @@ static inline void refine_path(WindSearch *search) {
     if (search->stage == JOINING) {
         /* The better side is searched first, which shortens the search on the other side. */
         search->best = found;
-        search->side = found.side != 0 ? -found.side : -1;
+        search->one = found.side != 0 ? -found.side : -1;
         if (found.path.time > 0.0) {
             next_stage(search);
             return;
@@ -2331,14 +2350,14 @@ static inline WindCandidate best_of_joins(integer side, WindScene scene, WindCan
 static inline void join_one_side(WindSearch *search) {
     WindCandidate best = search->best;
     const WindScene scene = search->scene;
-    const integer side = search->side;
-    if (search->sides != -side) {
-        best = best_of_joins(side, scene, best);
+    const integer one = search->one;
+    if (search->sides != -one) {
+        best = best_of_joins(one, scene, best);
     }
-    const Refinement refinement = side == 1 ? NO_REFINEMENT : begin_refinement(best, TWO_PI / (real)JOINS, scene);
+    const Refinement refinement = one == 1 ? NO_REFINEMENT : begin_refinement(best, TWO_PI / (real)JOINS, scene);
     const integer new_1 = search->left - 1;
     search->best = best;
-    search->side = -side;
+    search->one = -one;
     search->left = new_1;
     search->refinement = refinement;
     return;
@@ -2881,7 +2900,7 @@ static inline Leaves with_leaf(Leaves leaves, integer number) {
  * Cells are visited in the order of their phases, and halved as long as a word may join inside them early enough.
  */
 static inline void coarse_search(WindSearch *search) {
-    const integer side = search->side;
+    const integer one = search->one;
     const WindScene scene = search->scene;
     const WindCandidate best = search->best;
     CellVisit visit = search->visit;
@@ -2892,10 +2911,10 @@ static inline void coarse_search(WindSearch *search) {
     while (left > 0 && start.path.time == INFINITY && visit.number < shift_left(FIRST_CELLS, visit.level)) {
         left -= 1;
         const real_2 middle_of_1 = middle_of(visit);
-        integer words = words_inside(middle_of_1.a0, middle_of_1.a1, (visit.words & ALL_WORDS), side, scene,
+        integer words = words_inside(middle_of_1.a0, middle_of_1.a1, (visit.words & ALL_WORDS), one, scene,
                 best.path.time);
         if (words != 0 && visit.level >= COARSE) {
-            const integer_LeafEnd_JoinPoint examine_cell_2 = examine_cell(visit, words, side, scene, before, best);
+            const integer_LeafEnd_JoinPoint examine_cell_2 = examine_cell(visit, words, one, scene, before, best);
             words = examine_cell_2.a0;
             before = examine_cell_2.a1;
             start = examine_cell_2.a2;
@@ -2911,7 +2930,7 @@ static inline void coarse_search(WindSearch *search) {
     search->leaves = leaves;
     search->left = left;
     if (start.path.time < INFINITY) {
-        search->refinement = refinement_from(start, side, TWO_PI / (real)shift_left(FIRST_CELLS, LEAF));
+        search->refinement = refinement_from(start, one, TWO_PI / (real)shift_left(FIRST_CELLS, LEAF));
         return;
     }
     if (visit.number < shift_left(FIRST_CELLS, visit.level)) {
@@ -2934,9 +2953,9 @@ static inline real time_tolerance(WindCandidate best, WindScene scene) {
     return WIND_TIE_TOLERANCE * (1.0 + scene.R + best.path.time);
 }
 
-/* The tolerance after `MOST_VISITS` cells: an upper bound on the time to hold the circle through `UNKNOWN_ARC`. */
+/* The tolerance after `MOST_VISITS` cells: an upper bound on the time to hold the circle through 2 pi/4096. */
 static inline real hold_tolerance(WindScene scene) {
-    return scene.R / (1.0 - length(scene.wx, scene.wy)) * UNKNOWN_ARC;
+    return scene.R / (1.0 - length(scene.wx, scene.wy)) * (TWO_PI / 4096.0);
 }
 
 /* The two arcs of which the best path consists, up to rounding; `NO_CORNER` for another path. */
@@ -3137,7 +3156,7 @@ static inline real_WindCandidate compare_at_end(CellVisit visit, integer side, W
 
 /* The search after cells inside the leaves of one side that are left, until a path has to be refined. */
 static inline void fine_search(WindSearch *search) {
-    const integer side = search->side;
+    const integer one = search->one;
     const WindScene scene = search->scene;
     const WindCandidate best = search->best;
     const Leaves leaves = search->leaves;
@@ -3157,9 +3176,8 @@ static inline void fine_search(WindSearch *search) {
         const real tolerance = visits <= MOST_VISITS ? time_tolerance(best, scene) : hold_tolerance(scene);
         const real sooner = best.path.time - tolerance;
         const real_2 middle_of_1 = middle_of(visit);
-        integer words = words_inside(middle_of_1.a0, middle_of_1.a1, (visit.words & ALL_WORDS), side, scene,
-                sooner);
-        if (words != 0 && side == best.side) {
+        integer words = words_inside(middle_of_1.a0, middle_of_1.a1, (visit.words & ALL_WORDS), one, scene, sooner);
+        if (words != 0 && one == best.side) {
             if (best.path.time < compared) {
                 corner = corner_of(best, scene);
                 compared = best.path.time;
@@ -3167,7 +3185,7 @@ static inline void fine_search(WindSearch *search) {
             words = words_beside_best(visit, words, scene, best, corner, sooner);
         }
         if (words != 0 && integer_modulo(LAST - visit.level, 2) == 0 && visit.level > LEAF) {
-            const real_WindCandidate compare_at_end_2 = compare_at_end(visit, side, scene, best);
+            const real_WindCandidate compare_at_end_2 = compare_at_end(visit, one, scene, best);
             const real earliest = compare_at_end_2.a0;
             start = compare_at_end_2.a1;
             cell = (OpenCell){words, earliest, tolerance};
@@ -3466,7 +3484,7 @@ static inline real step_without_zero(real value, real slope, real bend) {
 
 /* A step within which the excess falls by at most half a turn, and LSR and RSL neither begin nor cease to exist. */
 static inline real step_of_excess(integer u, integer last, Excess excess, Bounds limits, WindScene scene, real
-        length_tolerance) {
+        tolerance) {
     real step = limits.step;
     if (limits.speed > 0.0) {
         step = min_real(step, 0.5 * 3.141592653589793 / limits.speed);
@@ -3477,7 +3495,7 @@ static inline real step_of_excess(integer u, integer last, Excess excess, Bounds
     const real distance = sqrt(max_real(excess.apart + 4.0, 0.0)) + limits.speed * step;
     const Bends bends = bends_of_square(u, distance, limits, scene);
     const real low = min_real(bends.down, bends.size), high = min_real(bends.up, bends.size);
-    if (fabs(excess.apart) <= length_tolerance) {
+    if (fabs(excess.apart) <= tolerance) {
         return min_real(step, max_real(high > 0.0 ? fabs(excess.apart_slope) / high : step, DOUBLE_ROOT));
     }
     if (excess.apart > 0.0) {
@@ -3521,14 +3539,14 @@ static inline WindCandidate first_with_straight(integer u, integer last, SlotPos
         real until_) {
     SlotPose pose = begin;
     const WindCandidate none = (WindCandidate){0.0, slot.side, NO_PATH};
-    const real length_tolerance = 4.0 * scene.arc_tolerance;
+    const real tolerance = 4.0 * scene.arc_tolerance;
     Excess excess = excess_at(u, last, pose, slot, scene);
     if (bounds_at(last, pose, slot, scene).speed <= ROUNDING) {
         /* The last arc is on the circle itself: the vehicle would have been in the slot before. */
         return none;
     }
     Path path;
-    if (fabs(excess.value) <= length_tolerance && excess.apart >= -length_tolerance) {
+    if (fabs(excess.value) <= tolerance && excess.apart >= -tolerance) {
         path = path_with_straight(u, last, pose, scene);
         if (path.time < INFINITY) {
             return (WindCandidate){slot.phase + pose.width, slot.side, path};
@@ -3539,10 +3557,10 @@ static inline WindCandidate first_with_straight(integer u, integer last, SlotPos
             return none;
         }
         const Bounds limits = bounds_at(last, pose, slot, scene);
-        const real step = step_of_excess(u, last, excess, limits, scene, length_tolerance);
+        const real step = step_of_excess(u, last, excess, limits, scene, tolerance);
         const SlotPose ahead = slot_pose(pose.width + step, slot, scene);
         const Excess excess_ahead = excess_at(u, last, ahead, slot, scene);
-        const bool exists = excess.apart >= -length_tolerance && excess_ahead.apart >= -length_tolerance;
+        const bool exists = excess.apart >= -tolerance && excess_ahead.apart >= -tolerance;
         if (exists && (excess.value >= 0.0 && 0.0 > excess_ahead.value) && excess.value - excess_ahead.value <=
                 3.141592653589793 + 1.0) {
             const SlotPose root = root_of_excess(u, last, pose, ahead, slot, scene);
@@ -3582,7 +3600,7 @@ static inline WindCandidate first_of_three_arcs(integer u, integer halves, SlotP
     }
     const SlotPose origin = slot_pose(0.0, slot, scene);
     SlotPose pose = begin;
-    const real length_tolerance = 12.0 * scene.arc_tolerance;
+    const real tolerance = 12.0 * scene.arc_tolerance;
     const real half = 3.141592653589793 * (real)halves - 0.5 * angle(arc_rotation(u, scene.c, scene.s, origin.c,
             origin.s));
     for (integer pass_1 = 0; pass_1 < MOST_STEPS; pass_1++) {
@@ -3601,7 +3619,7 @@ static inline WindCandidate first_of_three_arcs(integer u, integer halves, SlotP
         const real high = min_real(bends.up + square + 4.0 * limits.speed_change, bends.size + square);
         const real spread = distance + 4.0 * sin(0.5 * middle.arc);
         real step;
-        if (fabs(middle.value) <= length_tolerance * (spread + length_tolerance)) {
+        if (fabs(middle.value) <= tolerance * (spread + tolerance)) {
             const Path path = path_of_three_arcs(u, middle, pose, scene);
             if (path.time < INFINITY) {
                 return (WindCandidate){slot.phase + pose.width, slot.side, path};
@@ -3663,7 +3681,7 @@ static inline WindEntry arrival_of(WindCandidate found, WindScene scene) {
 
 /* The first arrival in the slot that is at a phase at the time 0; nan, with a status, where there is none.
  *
- * The side of the problem must be 1 or -1. The slot is entered exactly.
+ * The side of the problem must be 1 or -1. Its tolerance is not used.
  */
 static inline WindEntry first_in_slot(WindProblem problem, real phase) {
     const integer status = wind_search_status_of(problem);

@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 864f94400bdc5d75745543b4ca7783ab5b5d8e2afaed109dd0ba1a01ee84fa7d
+ * SHA-256 of the source: 20e13b687e74819db4b2637002f849bdf2e690e72aa3e8c0e26b42c25a5526d7
  */
 #ifndef LOITER_STILL_AIR_LOOPS_H
 #define LOITER_STILL_AIR_LOOPS_H
@@ -81,9 +81,9 @@ typedef struct { real a0; Extremal a1; } real_Extremal;
  */
 typedef struct { real x, y, R, arc_tolerance, outer, inner, fold; } Start;
 
-typedef struct { real_2 a0; real a1; } real_2_real;
-
 typedef struct { real a0, a1, a2; } real_3;
+
+typedef struct { real_2 a0; real a1; } real_2_real;
 
 /* A maneuver: the side of its circle, its word as flown, and the durations of its pieces (0 past the last). */
 typedef struct { integer side, word; real t1, t2, t3; } Entry;
@@ -212,33 +212,55 @@ static inline LOITER_ALWAYS_INLINE real_2 two_product(real a, real b) {
 #endif
 }
 
-/* The difference of squares x^2 + (y - R) (y + R + k), with nearly full relative accuracy even near zero.
+/* The squared distances rp^2 - (R + 1)^2, rm^2 - (R - 1)^2 and rp^2 - (R - 3)^2 beyond three circles.
  *
- * With k = 2 it is rp^2 - (R + 1)^2: the squared distance from (0, -1) less the squared radius of the last circle
- * of L. With k = -2 it is rm^2 - (R - 1)^2, the same for R about (0, 1). Near zero it is a small difference of
- * large numbers, and T varies with its square root: in plain doubles T would lose half of its digits there.
+ * They are `beyond` with R and 2, R and -2, 2 - R and 2. The last is the sum u + d + low, with an error of third
+ * order only: at R = 1 + 2e-14 there are doubles next to (-sqrt(3), 0) where it is 8e-32, and where T would lose
+ * 1e-9 for the terms that `beyond` leaves out. The others differ from it by -8 (R - 1) and -4 (y + R - 2); for them
+ * an error of second order is enough, since next to their circles a single arc replaces the words that depend on
+ * them.
  */
-static inline LOITER_ALWAYS_INLINE real beyond(real x, real y, real R, real k) {
-    const real_2 two_sum_1 = two_sum(y, -R);
+static inline LOITER_ALWAYS_INLINE real_3 beyond_circles(real x, real y, real R) {
+    const real_2 two_sum_1 = two_sum(y, R - 2.0);
     const real s = two_sum_1.a0, es = two_sum_1.a1;
-    const real_2 two_sum_2 = two_sum(y, R);
+    const real_2 two_sum_2 = two_sum(y, 2.0 - R);
     real t = two_sum_2.a0;
     const real et = two_sum_2.a1;
-    const real_2 two_sum_3 = two_sum(t, k);
+    const real_2 two_sum_3 = two_sum(t, 2.0);
     t = two_sum_3.a0;
     const real ek = two_sum_3.a1;
-    const real_2 two_product_4 = two_product(s, t);
-    const real p = two_product_4.a0, ep = two_product_4.a1;
-    const real_2 two_product_5 = two_product(x, x);
-    const real q = two_product_5.a0, eq = two_product_5.a1;
-    const real_2 two_sum_6 = two_sum(q, p);
-    const real u = two_sum_6.a0, eu = two_sum_6.a1;
-    return u + (eu + (ep + eq + s * (et + ek) + t * es));
+    const real_2 two_sum_4 = two_sum(et, ek);
+    const real e = two_sum_4.a0, ee = two_sum_4.a1;
+    const real_2 two_product_5 = two_product(s, t);
+    const real p = two_product_5.a0, ep = two_product_5.a1;
+    const real_2 two_product_6 = two_product(x, x);
+    const real q = two_product_6.a0, eq = two_product_6.a1;
+    const real_2 two_product_7 = two_product(s, e);
+    const real v = two_product_7.a0, ev = two_product_7.a1;
+    const real_2 two_product_8 = two_product(t, es);
+    const real w = two_product_8.a0, ew = two_product_8.a1;
+    const real_2 two_sum_9 = two_sum(q, p);
+    const real u = two_sum_9.a0, eu = two_sum_9.a1;
+    const real_2 two_sum_10 = two_sum(ep, eq);
+    const real a = two_sum_10.a0, ea = two_sum_10.a1;
+    const real_2 two_sum_11 = two_sum(v, w);
+    const real b = two_sum_11.a0, eb = two_sum_11.a1;
+    const real_2 two_sum_12 = two_sum(a, b);
+    const real c = two_sum_12.a0, ec = two_sum_12.a1;
+    const real_2 two_sum_13 = two_sum(eu, c);
+    const real d = two_sum_13.a0, ed = two_sum_13.a1;
+    const real low = es * e + s * ee + (ev + ew + (ea + eb + (ec + ed)));
+    const real_2 two_sum_14 = two_sum(u, -8.0 * (R - 1.0));
+    const real f = two_sum_14.a0, ef = two_sum_14.a1;
+    const real_2 two_sum_15 = two_sum(u, -4.0 * s);
+    const real g = two_sum_15.a0, eg = two_sum_15.a1;
+    return (real_3){f + (ef + d), g + (eg + d - 4.0 * es), u + d + low};
 }
 
 /* The start at a reduced state. */
 static inline LOITER_ALWAYS_INLINE Start start_at(real x, real y, real R, real arc_tolerance) {
-    const real outer = beyond(x, y, R, 2.0), inner = beyond(x, y, R, -2.0), fold = beyond(x, y, 2.0 - R, 2.0);
+    const real_3 beyond_circles_1 = beyond_circles(x, y, R);
+    const real outer = beyond_circles_1.a0, inner = beyond_circles_1.a1, fold = beyond_circles_1.a2;
     return (Start){x, y, R, arc_tolerance, outer, inner, fold};
 }
 
@@ -275,8 +297,8 @@ static inline LOITER_ALWAYS_INLINE real_2_real onto_axis(real x, real y, real en
 
 /* LSL: onto the axis at (-c, 0), straight to (-X, 0), X = sqrt(R (R + 2)), left for acos(1/(R + 1)).
  *
- * `y` is the ordinate of the start, with the opposite sign for RSL. `joins` says whether c >= X, decided by
- * `exact.beyond` as in the selection of words; rounding may still make c - X negative.
+ * `y` is the ordinate of the start, with the opposite sign for RSL. `joins` says whether c >= X, decided as in the
+ * selection of words; rounding may still make c - X negative.
  */
 static inline LOITER_ALWAYS_INLINE Extremal external_join(integer word, real y, Start start, bool joins) {
     const real R = start.R;
@@ -425,9 +447,9 @@ static inline LOITER_ALWAYS_INLINE Extremal lrl(Start start) {
     return (Extremal){WORD_LRL, first, exists ? 0.0 : INFINITY, middle, last};
 }
 
-/* Left, straight, right, from inside a circle of R >= 2: rp <= R - 1. */
+/* Left, straight, right, from inside a circle of R >= 2: rp <= R - 1, that is rp^2 - (R - 3)^2 <= 4 (R - 2). */
 static inline LOITER_ALWAYS_INLINE Extremal lsr(Start start) {
-    return internal_join(WORD_LSR, start.y, start, beyond(start.x, start.y, -start.R, 2.0) <= 0.0);
+    return internal_join(WORD_LSR, start.y, start, start.fold <= 4.0 * (start.R - 2.0));
 }
 
 /* Whether an extremal ends at the target. */

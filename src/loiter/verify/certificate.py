@@ -3,7 +3,8 @@
 It shows that the maneuver is an extremal, gives lambda and psi for checking this, and shows that no candidate is
 faster; the Hamilton-Jacobi-Bellman equation compares it with the least times of neighbouring starts. In still air a
 fastest maneuver is always among the candidates (docs/proof.md, theorem 1), so a valid certificate without a tolerance
-shows that the maneuver is optimal, up to rounding: `Certificate.proved_optimal`. Distances, curvatures and start times
+shows that the maneuver is optimal, up to rounding: `Certificate.proved_optimal`; `Certificate.rounding` says how much
+that can be. Distances, curvatures and start times
 of segments are not checked: letters, durations and the join are.
 """
 
@@ -25,6 +26,7 @@ from loiter.verify.adjoints import trajectory_of
 from loiter.verify.conditions import IN_WIND, residuals
 from loiter.verify.paper_conditions import IN_STILL_AIR
 from loiter.verify.residual import Candidate, Residual
+from loiter.verify.rounding_bound import RoundingBound, rounding_bound
 from loiter.verify.trajectory import FlownPiece, Trajectory
 
 LETTERS = {u: letter for letter, u in CONTROLS.items()}
@@ -88,8 +90,13 @@ class Certificate:
 
     @property
     def proved_optimal(self) -> bool:
-        """Whether the maneuver is proved to be optimal, up to rounding, by theorem 1 of docs/proof.md."""
+        """Whether the maneuver is proved to be optimal, up to `rounding`, by theorem 1 of docs/proof.md."""
         return self.complete and self.valid
+
+    @property
+    def rounding(self) -> RoundingBound:
+        """How far from the target it may end, and how late it may be, for rounding: delta and epsilon."""
+        return rounding_bound(self.maneuver, problem_of(self.maneuver), self.proved_optimal)
 
     @property
     def basis(self) -> str:
@@ -205,11 +212,14 @@ def certify(maneuver: Maneuver, *, tolerance_m: float = 0.0) -> Certificate:
 
 def certificate_values(certificate: Certificate) -> dict[str, object]:
     """What certificates of every kind have, as plain values for JSON."""
-    maneuver, runner_up = certificate.maneuver, certificate.runner_up
+    maneuver, runner_up, rounding = certificate.maneuver, certificate.runner_up, certificate.rounding
     return {
         "valid": certificate.valid,
         "proved_optimal": certificate.proved_optimal,
         "basis": certificate.basis,
+        "delta_m": rounding.delta_m,
+        "epsilon_s": rounding.epsilon_s,
+        "rounding": rounding.basis,
         "word": maneuver.word,
         "turn": Turn(maneuver.turn).value,
         "duration_s": maneuver.duration_s,
@@ -276,6 +286,8 @@ def _head(certificate: Certificate) -> list[str]:
     lines = [f"Certificate of {maneuver.word or 'a start on the circle'}, {Turn(maneuver.turn).described}: {verdict}."]
     if certificate.valid:
         lines.append(certificate.claim)
+    if certificate.proved_optimal:
+        lines.append(_rounded(certificate.rounding))
     if certificate.lam is not None and certificate.psi is not None:
         psi1, psi2 = certificate.psi
         lines.append(f"lambda = {certificate.lam:.6f}, psi = ({psi1:.6f}, {psi2:.6f}) at the start.")
@@ -285,6 +297,16 @@ def _head(certificate: Certificate) -> list[str]:
         for s in certificate.switches
     ]
     return lines
+
+
+def _rounded(bound: RoundingBound) -> str:
+    """What rounding may add, as a sentence."""
+    if bound.delta_m is None or bound.epsilon_s is None:
+        return f"How much rounding may add is {bound.basis}."
+    return (
+        f"In doubles: it ends within {bound.delta_m:.2g} m of the point of joining, and takes at most "
+        f"{bound.epsilon_s:.2g} s longer than the least time of its start ({bound.basis})."
+    )
 
 
 def _table(residuals: tuple[Residual, ...]) -> Iterator[str]:

@@ -50,15 +50,15 @@ MOST_BOXES = 200_000
 # Digits of the balls, in bits: differences such as R - 1 keep theirs.
 BITS = 160
 
-# The relative error of `exact.beyond` where its value exceeds 2^-46 of the square of the scale (docs/proof.md), and of
-# `exact.square_beyond`: two roundings.
-BEYOND, SQUARE_BEYOND = 2.0**-52, 2.1 * UNIT
+# The relative error of `exact.beyond_circles` where its value exceeds 2^-46 of the square of the scale, for `fold`
+# 2^-94 (docs/proof.md), and of `exact.square_beyond`: two roundings.
+BEYOND, SQUARE_BEYOND = 2.6 * UNIT, 2.1 * UNIT
 
 # The relative error of `within_reach` where it exceeds 2^-46 of the square of the scale, `outer` is not positive and
 # R + y + 2 is a small share of R (docs/proof.md).
-NEAR_END = 2.5 * UNIT
+NEAR_END = 3.7 * UNIT
 
-# The error of `exact.beyond` at any value is `BEYOND` of it, and this share of the square of the scale: (B2) of
+# The error of `exact.beyond_circles` at any value is `BEYOND` of it, and this share of the square of the scale: (B3) of
 # docs/bridging.md.
 ANYWHERE = 2.0**-100
 
@@ -72,8 +72,8 @@ APART = 2.0**-4
 class State(NamedTuple):
     """The states of a box, in balls: x, y, R, their distance from the centre of the first arc.
 
-    `outer`, `inner` and `fold` are those of the kernel's `Start`, with the bound of `exact.beyond`; None where the word
-    does not use them. `reach` is the exact value of `within_reach`.
+    `outer`, `inner` and `fold` are those of the kernel's `Start`, with the bound of `exact.beyond_circles`; None where
+    the word does not use them. `reach` is the exact value of `within_reach`.
     """
 
     x: Any
@@ -329,12 +329,12 @@ def between(near: Any, far: Any, share: Any) -> Any:
 
 
 def signed(value: Any, sign: int) -> Rounded:
-    """A quantity of `exact.beyond`, whose sign is known."""
+    """A quantity of `exact.beyond_circles`, whose sign is known."""
     return Rounded(value, BEYOND * highest(value), BEYOND, sign)
 
 
 def unsigned(value: Any, x: Any, y: Any, R: Any) -> Rounded:
-    """A quantity of `exact.beyond` at any state, also next to its circle."""
+    """A quantity of `exact.beyond_circles` at any state, also next to its circle."""
     scale = 1.0 + highest(x) + highest(y) + highest(R)
     return Rounded(value, (BEYOND * highest(value) + ANYWHERE * scale * scale) * WIDEN)
 
@@ -494,8 +494,8 @@ SHORT = (Interval(0.0, LONG),)
 # Left and right of x = 0.
 SIDES = Interval(-1.0, -1.0), Interval(1.0, 1.0)
 
-# Closer to the centre of L than 2^-21, `fold` does not exceed 2^-46 of the square of the scale.
-CENTRE = octaves(-21, -4)
+# Closer to the centre of L than 2^-46, `fold` does not exceed 2^-94 of the square of the scale.
+CENTRE = octaves(-46, -4)
 
 
 def regions() -> list[Region]:
@@ -565,7 +565,7 @@ def regions() -> list[Region]:
         ),
         Region(
             "LR, right crossing, R <= 2",
-            boxes(ROUND, SHARES, octaves(-20, 0)),
+            boxes(ROUND, SHARES, octaves(-52, 0)),
             left_right_tight,
             lambda f, s: f(kernel.lr)(s, 1.0),
             BY_CROSSING,

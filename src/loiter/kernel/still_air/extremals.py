@@ -7,7 +7,7 @@ circle is the mirror image: pass -y, swap L and R.
 
 In the reduced plane L turns clockwise about (0, -1) at radius rp, R counter-clockwise about (0, 1) at radius rm.
 Differences of squares are written as products, (R - y) (R + y + 2) for (R + 1)^2 - (y + 1)^2, so that a state near a
-circle keeps its digits; those that decide on which side of a circle it lies come from `exact.beyond`.
+circle keeps its digits; those that decide on which side of a circle it lies come from `exact.beyond_circles`.
 """
 
 from math import inf, sqrt
@@ -22,7 +22,7 @@ from loiter.kernel.angles import (
     snap_full_turn,
     total_angle,
 )
-from loiter.kernel.exact import beyond, square_beyond
+from loiter.kernel.exact import beyond_circles, square_beyond
 from loiter.kernel.words import Word
 
 
@@ -44,7 +44,7 @@ class Start(NamedTuple):
 
 def start_at(x: float, y: float, R: float, arc_tolerance: float) -> Start:
     """The start at a reduced state."""
-    outer, inner, fold = beyond(x, y, R, 2.0), beyond(x, y, R, -2.0), beyond(x, y, 2.0 - R, 2.0)
+    outer, inner, fold = beyond_circles(x, y, R)
     return Start(x, y, R, arc_tolerance, outer, inner, fold)
 
 
@@ -99,8 +99,8 @@ def onto_axis(x: float, y: float, end: float, arc_tolerance: float) -> tuple[Rot
 def external_join(word: Word, y: float, start: Start, joins: bool) -> Extremal:
     """LSL: onto the axis at (-c, 0), straight to (-X, 0), X = sqrt(R (R + 2)), left for acos(1/(R + 1)).
 
-    `y` is the ordinate of the start, with the opposite sign for RSL. `joins` says whether c >= X, decided by
-    `exact.beyond` as in the selection of words; rounding may still make c - X negative.
+    `y` is the ordinate of the start, with the opposite sign for RSL. `joins` says whether c >= X, decided as
+    in the selection of words; rounding may still make c - X negative.
     """
     R = start.R
     first, c = onto_axis(start.x, y, -1.0, start.arc_tolerance)
@@ -131,8 +131,8 @@ def rsl(start: Start) -> Extremal:
 
 
 def lsr(start: Start) -> Extremal:
-    """Left, straight, right, from inside a circle of R >= 2: rp <= R - 1."""
-    return internal_join(Word.LSR, start.y, start, beyond(start.x, start.y, -start.R, 2.0) <= 0.0)
+    """Left, straight, right, from inside a circle of R >= 2: rp <= R - 1, that is rp^2 - (R - 3)^2 <= 4 (R - 2)."""
+    return internal_join(Word.LSR, start.y, start, start.fold <= 4.0 * (start.R - 2.0))
 
 
 def rsr(start: Start) -> Extremal:

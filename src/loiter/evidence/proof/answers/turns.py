@@ -287,7 +287,7 @@ def near(inwards_sign: Possible, outwards_sign: Possible, wide: Possible) -> int
 
 
 def rounding_errors() -> Certainty:
-    """`exact.beyond` adds all errors of first order, `square_beyond` its only one; sums and products are published."""
+    """`exact.beyond` and the others add all errors of the orders that they say; sums and products are published."""
     x, y, R, k, *symbols, _ = variables("x y R k s t1 t2 p q u")
     sums = iter(symbols[i] for i in (0, 1, 2, 5))
     products = iter(symbols[i] for i in (3, 4))
@@ -306,7 +306,33 @@ def rounding_errors() -> Certainty:
     difference = x * x + (y - R) * (y + R + k)
     # es (et + ek), which is below 2^-98 of the square of the scale.
     zero("`beyond`", difference - found - errors[0] * (errors[1] + errors[2]))
-    return Certainty(1 + square_beyond() + published_algorithms(), 0)
+    return Certainty(1 + beyond_circles() + square_beyond() + published_algorithms(), 0)
+
+
+def beyond_circles() -> int:
+    """`exact.beyond_circles` adds errors of first order, to `fold` those of second order too; the number of cases."""
+    x, y, R, *symbols, _ = variables("x y R s t1 t2 e u a b c d f g p q v w")
+    sums, products = iter(symbols[:11]), iter(symbols[11:])
+    errors: list[Expression] = []
+
+    def two_sum(a: Any, b: Any) -> Any:
+        rounded = next(sums)
+        errors.append(a + b - rounded)
+        return rounded, errors[-1]
+
+    def two_product(a: Any, b: Any) -> Any:
+        rounded = next(products)
+        return rounded, a * b - rounded
+
+    outer, inner, fold = rebinding({"two_sum": two_sum, "two_product": two_product})(exact.beyond_circles)(x, y, R)
+    left, right = x * x + (y + 1.0) * (y + 1.0), x * x + (y - 1.0) * (y - 1.0)
+    expected = left - (R + 1.0) * (R + 1.0), right - (R - 1.0) * (R - 1.0), left - (R - 3.0) * (R - 3.0)
+    # es ee, of third order, is left out, and of `outer` and `inner` what `fold` has as `low`.
+    es, ee, u, d = errors[0], errors[3], symbols[4], symbols[8]
+    low = fold - u - d
+    values = outer + low, inner + low, fold
+    zero("`beyond_circles`", *(a - b - es * ee for a, b in zip(expected, values, strict=True)))
+    return len(expected)
 
 
 def square_beyond() -> int:

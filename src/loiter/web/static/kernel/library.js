@@ -2613,6 +2613,10 @@ get proved_optimal() {
 const self = this;
 return and(self.complete, () => self.valid);
 }
+get rounding() {
+const self = this;
+return rounding_bound(self.maneuver, problem_of(self.maneuver), self.proved_optimal);
+}
 get basis() {
 const self = this;
 if (!truth(self.valid)) {
@@ -2747,6 +2751,10 @@ return new Map([...iter_items(certificate_values(self)), ["slot", new Map([["pha
 get proved_optimal() {
 const self = this;
 return and(self.complete, () => self.valid);
+}
+get rounding() {
+const self = this;
+return rounding_bound(self.maneuver, problem_of(self.maneuver), self.proved_optimal);
 }
 get valid() {
 const self = this;
@@ -3789,6 +3797,26 @@ join = add(add(end, mul(_heading_rounding(maneuver), add(1.0, T))), _ground_roun
 return Accuracy(end, length, angle, beside, join, mul([_of_difference(1.0, length)], 3), MaximumPrinciple(ROUNDING, choice, choice, mul(2.0, choice), choice, choice), choice, add(mul(WIND_TIE_TOLERANCE, add(add(1.0, start.R), T)), mul(2.0, _time_of_rounding(trajectory, length))));
 }
 
+function rounding_bound(maneuver, problem, proved_optimal) {
+let R, _, converted, delta_m, found, planned, unit, x, y;
+if (!truth(proved_optimal)) {
+return RoundingBound(null, null, NOT_CLAIMED);
+}
+planned = fastest(problem);
+if (ne([planned.turn, planned.segments], [maneuver.turn, maneuver.segments])) {
+return RoundingBound(null, null, NOT_PLANNED);
+}
+[x, y, R, _, _] = iter(problem.reduced());
+found = units_at(x, mul(item(SIDES, maneuver.turn), y), R);
+if (lt(found.epsilon, 0.0)) {
+return RoundingBound(null, null, NOT_COVERED);
+}
+unit = mul(pow(2.0, -52), add(add(add(1.0, abs(x)), abs(y)), R));
+converted = mul(OF_SECONDS, maneuver.duration_s);
+delta_m = add(mul(mul(found.delta, unit), problem.aircraft.turn_radius_m), mul(converted, problem.aircraft.airspeed_m_s));
+return RoundingBound(delta_m, add(mul(mul(found.epsilon, unit), problem.time_unit_s), converted), BY_THEOREMS);
+}
+
 function _instant(piece, began, s, unit_s) {
 let now;
 now = piece.at(s);
@@ -3796,9 +3824,9 @@ return Instant(mul(add(began, s), unit_s), piece.u, now.phi, now.psi1, now.psi2)
 }
 
 function certificate_values(certificate) {
-let maneuver, runner_up;
-[maneuver, runner_up] = iter([certificate.maneuver, certificate.runner_up]);
-return new Map([["valid", certificate.valid], ["proved_optimal", certificate.proved_optimal], ["basis", certificate.basis], ["word", maneuver.word], ["turn", maneuver.turn], ["duration_s", maneuver.duration_s], ["lambda", certificate.lam], ["psi", certificate.psi], ["choice", certificate.choice], ["switches", list(iter(certificate.switches)).map((switch_) => asdict(switch_))], ["residuals", list(iter(certificate.residuals)).map((residual) => _plain(residual))], ["candidates", list(iter(certificate.others)).map((other) => bit_or(asdict(other), new Map([["turn", other.turn]])))], ["runner_up", ((runner_up == null) ? null : runner_up.word)], ["margin_s", certificate.margin_s]]);
+let maneuver, rounding, runner_up;
+[maneuver, runner_up, rounding] = iter([certificate.maneuver, certificate.runner_up, certificate.rounding]);
+return new Map([["valid", certificate.valid], ["proved_optimal", certificate.proved_optimal], ["basis", certificate.basis], ["delta_m", rounding.delta_m], ["epsilon_s", rounding.epsilon_s], ["rounding", rounding.basis], ["word", maneuver.word], ["turn", maneuver.turn], ["duration_s", maneuver.duration_s], ["lambda", certificate.lam], ["psi", certificate.psi], ["choice", certificate.choice], ["switches", list(iter(certificate.switches)).map((switch_) => asdict(switch_))], ["residuals", list(iter(certificate.residuals)).map((residual) => _plain(residual))], ["candidates", list(iter(certificate.others)).map((other) => bit_or(asdict(other), new Map([["turn", other.turn]])))], ["runner_up", ((runner_up == null) ? null : runner_up.word)], ["margin_s", certificate.margin_s]]);
 }
 
 const Switch = struct(class extends Values {
@@ -4870,6 +4898,39 @@ steep = add(trajectory.lam, inner(first.p, first.w));
 return max(length, min(div(length, max(steep, length)), math.sqrt(length)));
 }
 
+const RoundingBound = struct(class extends Tuple {
+constructor(delta_m, epsilon_s, basis) {
+super();
+this.delta_m = delta_m;
+this.epsilon_s = epsilon_s;
+this.basis = basis;
+
+}
+}, ["delta_m", "epsilon_s", "basis"], 'RoundingBound');
+
+function fastest(problem) {
+let _, best;
+[best, ..._] = iter(solve_problem(problem, _optimum_alone, _fastest_alone));
+return best.maneuver;
+}
+
+function units_at(x, y, R) {
+let D, gap, scale, start;
+[start, scale] = iter([kernel.start_at(x, y, R, 0.0), add(add(add(1.0, abs(x)), abs(y)), R)]);
+if ((ge(R, add(1.0, math.sqrt(3.0))) || gt(start.fold, mul(mul(NO_FOLD, scale), scale)))) {
+return Units(MISS, (le(R, WIDE) ? rounding_bound_LATE : LATE_BEYOND));
+}
+gap = sub(mul(-0.5, start.fold), kernel.square_beyond(sub(R, 1.0), 3.0));
+D = add(mul(gap, gap), mul(mul(0.1875, start.fold), sub(mul(8.0, add(R, 3.0)), start.outer)));
+if (lt(abs(D), mul(mul(APART, gap), gap))) {
+return Units(MISS_OF_LRL, -1.0);
+}
+if (lt(D, 0.0)) {
+return Units(MISS, rounding_bound_LATE);
+}
+return Units(MISS_OF_LRL, mul(LATE_OF_LRL, max(1.0, div(mul(0.26, gap), math.sqrt(D)))));
+}
+
 function _plain(residual) {
 let value;
 value = (((residual.value != null) && truth(math.isfinite(residual.value))) ? residual.value : null);
@@ -5065,12 +5126,6 @@ this.gap = gap;
 
 }
 }, ["begin", "end", "gap"], 'NearPass');
-
-function fastest(problem) {
-let _, best;
-[best, ..._] = iter(solve_problem(problem, _optimum_alone, _fastest_alone));
-return best.maneuver;
-}
 
 function largest_k(tightest) {
 let k, slopes;
@@ -5653,6 +5708,25 @@ return self.psi.imag;
 }
 }, ["q", "e", "psi", "phi"], 'PieceState');
 
+function _optimum_alone(...arguments_) {
+let best;
+best = kernel.optimum(...iter(arguments_));
+return ((best == null) ? [] : [best]);
+}
+
+function _fastest_alone(problem) {
+return [kernel.wind_search_fastest(problem)];
+}
+
+const Units = struct(class extends Tuple {
+constructor(delta, epsilon) {
+super();
+this.delta = delta;
+this.epsilon = epsilon;
+
+}
+}, ["delta", "epsilon"], 'Units');
+
 function least_times__in_still_air(trajectory) {
 let R, by_heading, fastest, not_smooth, problem, rounded, side, tolerance, x, y;
 problem = trajectory.problem.reduced();
@@ -5790,16 +5864,6 @@ this.time = time;
 
 }
 }, ["width", "time"], 'Stop');
-
-function _optimum_alone(...arguments_) {
-let best;
-best = kernel.optimum(...iter(arguments_));
-return ((best == null) ? [] : [best]);
-}
-
-function _fastest_alone(problem) {
-return [kernel.wind_search_fastest(problem)];
-}
 
 function field_rate(distance, k) {
 let slope;
@@ -7302,6 +7366,11 @@ const KNOT = div(1852.0, 3600.0);
 const TURNS = new Map(list(iter(items_(SIDES))).map((one) => iter(one)).map(([turn, side]) => [side, turn]));
 const _MESSAGES = new Map([[kernel.Status.OK, "solved"], [kernel.Status.NOT_FINITE, "the state, the radius or the wind is nan or infinite"], [kernel.Status.RADIUS_TOO_SMALL, "the circle is tighter than the minimum turn radius"], [kernel.Status.OUT_OF_RANGE, "the state or the radius is beyond 2**52 turn radii, where a double cannot resolve one turn, or a place on Earth is more than 100 km away"], [kernel.Status.BAD_TOLERANCE, "the tolerance must be zero or positive, and below 2**52 turn radii"], [kernel.Status.BAD_AIRCRAFT, "airspeed and turn limit must be positive, finite numbers, and a bank below 90 degrees"], [kernel.Status.BAD_ORBIT, "the circle needs a finite centre and velocity, and a positive, finite radius"], [kernel.Status.BAD_TURN, "the turn must be cw, ccw or either"], [kernel.Status.BAD_POSE, "the position and the heading must be finite numbers, and latitudes within 90 degrees"], [kernel.Status.MALFORMED, "the line has more or fewer fields than the header, an open quote, is too long, or is not UTF-8"], [kernel.Status.WIND_TOO_STRONG, "the wind relative to the circle is as fast as the aircraft: |w| must be below 1"], [kernel.Status.NOT_HELD, "the circle is too tight to be held in this wind"], [kernel.Status.NOT_CONVERGED, "no maneuver was found that ends on the circle when flown"], [kernel.Status.BAD_WIND, "the wind needs a finite speed, zero or positive, and a finite direction"], [kernel.Status.BAD_SLOT, "the slot needs a finite bearing, and a finite time within 100,000 turns of the start"]]);
 const WIND_TIE_TOLERANCE = 1e-12;
+const NOT_CLAIMED = "the maneuver is not proved to be optimal";
+const NOT_PLANNED = "not proved: another maneuver, as fast up to rounding, is the plan";
+const NOT_COVERED = "not proved: theorem 6 of docs/bridging.md does not cover this state";
+const OF_SECONDS = pow(2.0, -50);
+const BY_THEOREMS = "docs/bridging.md, theorems 5 and 6, for the reduced state";
 const accuracy_STEP = pow(2.0, -15);
 const BESIDE_LAST_ARC = "the tolerance counts the start as on the last arc, but T without a tolerance does not";
 const fits_SHORT = 0.0001;
@@ -7329,6 +7398,14 @@ const FIRST_PART_RAD = 0.8;
 const RESOLUTION_M = mul(0.1, TOUCH_M);
 const adjoints_SHORT = fits_SHORT;
 const SAMPLES = 9;
+const NO_FOLD = pow(2.0, -150);
+const MISS = 256.0;
+const WIDE = pow(2.0, 44);
+const rounding_bound_LATE = 256.0;
+const LATE_BEYOND = 1024.0;
+const APART = pow(2.0, -39);
+const MISS_OF_LRL = 2048.0;
+const LATE_OF_LRL = 4096.0;
 const STRAIGHTENS = 0.85;
 const RESOLVED = 0.001;
 const AT_CORNER = "T has a corner: its one-sided derivatives";

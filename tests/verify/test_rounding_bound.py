@@ -1,0 +1,97 @@
+"""What certificates quote of theorems 5 and 6 of docs/bridging.md, beside 154 digits, and where they quote nothing."""
+
+from random import Random
+
+import pytest
+
+pytest.importorskip("flint")
+
+from evidence import bridging
+from evidence.bridging import Answer, Case
+from loiter import Aircraft, Orbit, Pose, Wind, candidates, plan
+from loiter.kernel.words import Word
+from loiter.planning.problem import problem_of
+from loiter.planning.sides import SIDES
+from loiter.verify import certify
+from loiter.verify.rounding_bound import NOT_CLAIMED, NOT_COVERED, NOT_PLANNED, rounding_bound
+
+# R = 1, past the switching curve by an arc that counts as none: late by 21.5 units.
+PAST_THE_CURVE = Case(0.03302678726138515, 0.026673956063606785, 1.0, 1, "switching curve")
+TURNS = {1: "cw", -1: "ccw", 0: "either"}
+
+
+def scene(case):
+    return Pose(case.x, case.y, 90.0), Orbit(0.0, 0.0, case.R, TURNS[case.turn]), Aircraft(1.0, min_turn_radius_m=1.0)
+
+
+def answer_of(maneuver):
+    """The durations of a maneuver of an aircraft of speed 1 and turn radius 1, and its word as the kernel has it."""
+    word = Word[maneuver.word] if maneuver.word else Word.EMPTY
+    durations = [segment.duration_s for segment in maneuver.segments]
+    t1, t2, t3 = [*durations, 0.0, 0.0, 0.0][:3]
+    return Answer(int(SIDES[maneuver.turn]), int(word), (t1, t2, t3), maneuver.duration_s)
+
+
+def holds(case, maneuver, delta_m, epsilon_s):
+    """Whether a maneuver ends within delta and is late by at most epsilon."""
+    errors, unit = bridging.errors_of(case, answer_of(maneuver)), bridging.unit(case.x, case.y, case.R)
+    return errors.miss * unit <= delta_m and errors.late * unit <= epsilon_s
+
+
+def bound(maneuver):
+    return rounding_bound(maneuver, problem_of(maneuver), True)
+
+
+def test_plans_of_adversarial_doubles_respect_what_is_quoted():
+    random, quoted = Random(3), 0
+    cases = [*bridging.ONCE_WRONG, PAST_THE_CURVE, *(bridging.drawn(random) for _ in range(400))]
+    for case in cases:
+        maneuver = plan(*scene(case))
+        found = bound(maneuver)
+        if found.delta_m is not None:
+            quoted += 1
+            assert holds(case, maneuver, found.delta_m, found.epsilon_s), case
+    assert quoted > 0.9 * len(cases)
+
+
+def test_bounds_that_are_too_small_are_refused():
+    maneuver = plan(*scene(PAST_THE_CURVE))
+    found = bound(maneuver)
+    assert holds(PAST_THE_CURVE, maneuver, found.delta_m, found.epsilon_s)
+    assert not holds(PAST_THE_CURVE, maneuver, found.delta_m, 1e-3 * found.epsilon_s)
+    assert not holds(PAST_THE_CURVE, maneuver, 1e-3 * found.delta_m, found.epsilon_s)
+
+
+def test_certificates_quote_the_bounds_in_metres_and_seconds():
+    maneuver = plan(Pose(-400.0, 120.0, 90.0), Orbit(0.0, 0.0, 80.0), Aircraft(20.0, min_turn_radius_m=50.0))
+    certificate = certify(maneuver)
+    unit = 2.0**-52 * (1.0 + 8.0 + 2.4 + 1.6)
+    assert certificate.rounding.delta_m == pytest.approx(256 * 50.0 * unit, rel=0.02)
+    assert certificate.rounding.epsilon_s == pytest.approx(256 * 2.5 * unit, rel=0.02)
+    values = certificate.to_dict()
+    assert (values["delta_m"], values["epsilon_s"], values["rounding"]) == certificate.rounding
+    assert "In doubles: it ends within" in str(certificate)
+
+
+def test_nothing_is_quoted_where_the_theorems_do_not_hold():
+    here = Pose(-0.53, 0.31, 90.0), Orbit(0.0, 0.0, 1.0), Aircraft(1.0, min_turn_radius_m=1.0)
+    *_, slowest = candidates(*here)
+    windy = certify(plan(*here[:1], Orbit(0.0, 0.0, 3.0), here[2], Wind(0.2, 90.0)))
+    for certificate in (certify(slowest), windy):
+        assert certificate.rounding == (None, None, NOT_CLAIMED)
+        assert certificate.to_dict()["epsilon_s"] is None
+        assert "In doubles" not in str(certificate)
+    tie = plan(Pose(3.0, 0.0, 90.0), Orbit(0.0, 0.0, 1.0, "cw"), here[2])
+    other = next(m for m in candidates(Pose(3.0, 0.0, 90.0), Orbit(0.0, 0.0, 1.0), here[2]) if m.turn != tie.turn)
+    assert bound(other).basis == NOT_PLANNED
+    case = next(c for c in double_roots() if bound(plan(*scene(c))).basis == NOT_COVERED)
+    assert "not proved" in str(certify(plan(*scene(case))))
+
+
+def double_roots():
+    """States in the band of LRL that theorem 6 leaves out, or next to it."""
+    random = Random(1)
+    while True:
+        R = random.uniform(1.1, 2.6)
+        _, x, y = bridging.double_root(random, R)
+        yield Case(x, y, R, 1, "double root")
