@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 3b807e8730ce4f5f1016bb53395475a4c1f72a01c57285e9a67316e6e4878dac
+ * SHA-256 of the source: b05cd40b1005a821c5cce9f88f5c0b578be4bdd8f50068e26b2d6f839f9992be
  */
 #include "loiter.h"
 

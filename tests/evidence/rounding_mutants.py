@@ -45,6 +45,9 @@ SCOPE: dict[ModuleType, tuple[str, ...]] = {
 
 LRL = (int(Word.LRL), int(mirrored(Word.LRL)))
 
+# A state beside the circle of R where y + R - 2 is rounded.
+BESIDE_R = bridging.Case(1.6679695106685055, 2.265967731243702e-17, 2.9447679266479163, 0, "circle and axis")
+
 # `min_time` and the sum of the durations: 42 units of rounding, and pieces that are left out.
 APART = 42.0 + 64.0
 
@@ -115,7 +118,7 @@ def in_place(mutant: Mutant) -> Iterator[None]:
 
 def states(count: int, seed: int) -> list[State]:
     """Adversarial states where 1e6 roundings are no small share of the scene, and the states that were once wrong."""
-    random, found = Random(seed), list(bridging.ONCE_WRONG)
+    random, found = Random(seed), [*bridging.ONCE_WRONG, BESIDE_R]
     while len(found) < count // 2:
         R = random.choice((1.0 + random.randint(50, 10 ** random.randint(2, 12)) * 2.0**-52, random.uniform(2.0, 4.0)))
         found.append(bridging.Case(*bridging.on_axis(random, R)[1:], R, random.choice((1, -1, 0)), ""))

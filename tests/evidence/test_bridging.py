@@ -6,7 +6,7 @@ import pytest
 
 pytest.importorskip("flint")
 
-from evidence import bridging
+from evidence import bridging, rounding_mutants
 from evidence.bridging import Case
 from evidence.changing import changed
 from loiter.kernel import exact
@@ -50,6 +50,19 @@ def test_each_earlier_formula_is_late_at_one_of_these_states(function, text, rep
     module = exact if function == "beyond_circles" else extremals
     monkeypatch.setattr(extremals, function, changed(module, function, text, replacement))
     assert max(one.late for one in errors(bridging.ONCE_WRONG, bridging.plain_answers)) > 1e3
+
+
+def test_mutants_that_lose_digits_are_refused():
+    """A part of `python -m evidence.rounding_mutants`."""
+    known = rounding_mutants.states(250, 0)
+    functions = "beyond_circles", "within_reach", "rl", "lr", "lrl"
+    # (branch * 0.25 + 1e6) - 1e6 is exact, the square of the last radius serves a tolerance alone, and no state is
+    # known at which s ee makes an answer late.
+    kept = "branch * 0.25", "(R + 1.0) * (R + 1.0)", "s * ee"
+    mutants = [m for m in rounding_mutants.mutants() if m.function in functions and m.text not in kept]
+    assert len(mutants) > 60
+    for mutant in mutants[::8]:
+        assert rounding_mutants.refusal(mutant, known), mutant.text
 
 
 def test_the_exact_optimum_is_that_of_the_paper():

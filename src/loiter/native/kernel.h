@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: aa5fd1091b13abd07e7bec0e40ce0223400a1a0a17a1b05f57f297c6babe6a20
+ * SHA-256 of the source: 3120d8582115e85a896c9eb3cfd5f9e81e0923e4f500ec9764bfaf92c63a172d
  */
 #ifndef LOITER_KERNEL_H
 #define LOITER_KERNEL_H

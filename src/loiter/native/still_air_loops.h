@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 20e13b687e74819db4b2637002f849bdf2e690e72aa3e8c0e26b42c25a5526d7
+ * SHA-256 of the source: ccd615ff9972df0ae9a082759a1d5afeb99e01585c1819287e88857438c9b166
  */
 #ifndef LOITER_STILL_AIR_LOOPS_H
 #define LOITER_STILL_AIR_LOOPS_H

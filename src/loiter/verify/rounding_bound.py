@@ -74,7 +74,7 @@ def rounding_bound(maneuver: Maneuver, problem: Problem, proved_optimal: bool) -
 def units_at(x: float, y: float, R: float) -> Units:
     """Delta and epsilon of theorems 5 and 6 for the clockwise circle."""
     start, scale = start_at(x, y, R, 0.0), 1.0 + abs(x) + abs(y) + R
-    if R >= 1.0 + sqrt(3.0) or start.fold > NO_FOLD * scale * scale:
+    if 1.0 + sqrt(3.0) <= R or start.fold > NO_FOLD * scale * scale:
         return Units(MISS, LATE if R <= WIDE else LATE_BEYOND)
     gap = -0.5 * start.fold - square_beyond(R - 1.0, 3.0)
     D = gap * gap + 0.1875 * start.fold * (8.0 * (R + 3.0) - start.outer)

@@ -4,7 +4,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 71efca6f93c0e0e47f668487029ca155f646c7c5c065d9ee2fce97c32c20ec71
+ * SHA-256 of the source: c035e808cba73454bcee0956f5f7b888c551e9bb1e2c0ba3b340f54eda78f118
  */
 
 // What Python has and JavaScript has not: the first of two that tie, and quotients rounded down. Integers are doubles

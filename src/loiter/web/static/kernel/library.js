@@ -3803,7 +3803,7 @@ if (!truth(proved_optimal)) {
 return RoundingBound(null, null, NOT_CLAIMED);
 }
 planned = fastest(problem);
-if (ne([planned.turn, planned.segments], [maneuver.turn, maneuver.segments])) {
+if ((ne(planned.turn, maneuver.turn) || ne(planned.segments, maneuver.segments))) {
 return RoundingBound(null, null, NOT_PLANNED);
 }
 [x, y, R, _, _] = iter(problem.reduced());
@@ -4917,7 +4917,7 @@ return best.maneuver;
 function units_at(x, y, R) {
 let D, gap, scale, start;
 [start, scale] = iter([kernel.start_at(x, y, R, 0.0), add(add(add(1.0, abs(x)), abs(y)), R)]);
-if ((ge(R, add(1.0, math.sqrt(3.0))) || gt(start.fold, mul(mul(NO_FOLD, scale), scale)))) {
+if ((le(add(1.0, math.sqrt(3.0)), R) || gt(start.fold, mul(mul(NO_FOLD, scale), scale)))) {
 return Units(MISS, (le(R, WIDE) ? rounding_bound_LATE : LATE_BEYOND));
 }
 gap = sub(mul(-0.5, start.fold), kernel.square_beyond(sub(R, 1.0), 3.0));
