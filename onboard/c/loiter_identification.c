@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 43210bbf6f1bddf8a4df497f56c2de9e13e04703590a7f1d041f53abc5151282
+ * SHA-256 of the source: e10eda0d3cf2ef75a10104f315693f7bf014a2492eee15c4e9c4de29da3a78ed
  */
 #include "loiter_identification.h"
 
@@ -63,6 +63,11 @@ typedef uint64_t unsigned_integer;
 #else
 #define APART
 #endif
+
+/* Whether a step may be so long, seconds. */
+static inline bool is_step(real dt_s) {
+    return dt_s > REAL(0.0) && dt_s <= (real)LOITER_LONGEST_STEP_S;
+}
 
 #if defined(__GNUC__) || defined(__clang__)
 #define LOITER_ALWAYS_INLINE __attribute__((always_inline))
@@ -1284,7 +1289,7 @@ static void follow_clock(loiter_identification *identification, uint32_t time_us
 
 int loiter_law_step_identified(loiter_law *law, loiter_identification *identification, const loiter_measurement *m,
                                loiter_real dt_s, loiter_command *command) {
-    if (!(dt_s > REAL(0.0) && dt_s <= (real)LOITER_LONGEST_STEP_S)) {
+    if (!is_step(dt_s)) {
         return LOITER_BAD_STEP;
     }
     Identification *const memory = &identification->memory;

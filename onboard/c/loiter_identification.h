@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 43210bbf6f1bddf8a4df497f56c2de9e13e04703590a7f1d041f53abc5151282
+ * SHA-256 of the source: e10eda0d3cf2ef75a10104f315693f7bf014a2492eee15c4e9c4de29da3a78ed
  */
 #ifndef LOITER_IDENTIFICATION_H
 #define LOITER_IDENTIFICATION_H

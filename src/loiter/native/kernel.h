@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 3120d8582115e85a896c9eb3cfd5f9e81e0923e4f500ec9764bfaf92c63a172d
+ * SHA-256 of the source: 4b439850cc4a3b483adf75028a4b56f4528e1e9e4b3e6ac1bbff85f72e3ee175
  */
 #ifndef LOITER_KERNEL_H
 #define LOITER_KERNEL_H
@@ -166,14 +166,14 @@ typedef struct { integer words; real earliest, tolerance; } OpenCell;
 
 /* A search for the fastest entry, which `advance_search` continues: its stage, and what is known so far.
  *
- * The sides of the circle that are asked for are `sides`, that which is searched now is `one`. `best` is the
+ * The sides of the circle that are asked for are `sides`, that which is searched now is `side`. `best` is the
  * fastest path found, `beside` the entry beside the circle that counts, too. `visit` is the next cell; `before` the
  * end of the leaf before it, `leaves` those that are left on this side, and `others` on the other one. `corner` is
  * that of the best path, which took the time `compared`, and `visits` the number of cells so far. While there is a
  * refinement, it is continued first; `cell` is the cell that waits for it. `left` is the number of steps that may
  * follow at once, and `entry` the result once the stage is ENDED.
  */
-typedef struct { integer stage, sides, one; WindScene scene; WindCandidate best; EntryBeside beside; CellVisit
+typedef struct { integer stage, sides, side; WindScene scene; WindCandidate best; EntryBeside beside; CellVisit
         visit; LeafEnd before; Leaves leaves, others; Corner corner; real compared; integer visits; Refinement
         refinement; OpenCell cell; integer left; WindEntry entry; } WindSearch;
 
@@ -387,6 +387,9 @@ static const WindCandidate NO_CANDIDATE = {0.0, 0, {INFINITY, 0, 0.0, 0.0, 0.0, 
  * section 6.
  */
 #define WIND_TIE_TOLERANCE 1e-12
+
+/* The arc of the circle that is held for `hold_tolerance`. */
+#define UNKNOWN_ARC 0.0015339807878856412 /* TWO_PI / 4096.0 */
 
 /* In cells within this many half widths of the end of the best path, bounds around that end are tried too. */
 #define NEAR_BEST 8.0
@@ -1649,11 +1652,11 @@ static inline WindSearch begin_search(WindProblem problem) {
             return search;
         }
     }
-    const integer each_one_1[2] = {1, -1};
+    const integer each_side_1[2] = {1, -1};
     for (int i_1 = 0; i_1 < 2; i_1++) {
-        const integer one = each_one_1[i_1];
-        if (problem.side != -one && is_on_circle(one, scene)) {
-            search.best = start_on_circle(one, scene);
+        const integer side = each_side_1[i_1];
+        if (problem.side != -side && is_on_circle(side, scene)) {
+            search.best = start_on_circle(side, scene);
         }
     }
     if (search.best.side != 0) {
@@ -2237,13 +2240,13 @@ static inline CellVisit next_leaf(integer leaf) {
 
 /* The search at the beginning of its next stage, on the other side; the result after the last one. */
 static inline void next_stage(WindSearch *search) {
-    const integer stage = search->stage + 1, one = -search->one;
+    const integer stage = search->stage + 1, side = -search->side;
     if (stage == ENDED) {
         end_search(search);
         return;
     }
     CellVisit visit = FIRST_CELL;
-    if (stage > COARSE_OTHER || search->sides == -one) {
+    if (stage > COARSE_OTHER || search->sides == -side) {
         const integer first = search->others.first, second = search->others.second, third =
                 search->others.third, fourth = search->others.fourth;
         visit = next_leaf((((first | second) | third) | fourth) != 0 ? -1 : shift_left(FIRST_CELLS, LEAF));
@@ -2251,7 +2254,7 @@ static inline void next_stage(WindSearch *search) {
     const Leaves new_1 = search->others;
     const Leaves new_2 = search->leaves;
     search->stage = stage;
-    search->one = one;
+    search->side = side;
     search->visit = visit;
     search->before = NO_LEAF_END;
     search->leaves = new_1;
@@ -2314,7 +2317,7 @@ static inline void refine_path(WindSearch *search) {
     if (search->stage == JOINING) {
         /* The better side is searched first, which shortens the search on the other side. */
         search->best = found;
-        search->one = found.side != 0 ? -found.side : -1;
+        search->side = found.side != 0 ? -found.side : -1;
         if (found.path.time > 0.0) {
             next_stage(search);
             return;
@@ -2350,14 +2353,14 @@ static inline WindCandidate best_of_joins(integer side, WindScene scene, WindCan
 static inline void join_one_side(WindSearch *search) {
     WindCandidate best = search->best;
     const WindScene scene = search->scene;
-    const integer one = search->one;
-    if (search->sides != -one) {
-        best = best_of_joins(one, scene, best);
+    const integer side = search->side;
+    if (search->sides != -side) {
+        best = best_of_joins(side, scene, best);
     }
-    const Refinement refinement = one == 1 ? NO_REFINEMENT : begin_refinement(best, TWO_PI / (real)JOINS, scene);
+    const Refinement refinement = side == 1 ? NO_REFINEMENT : begin_refinement(best, TWO_PI / (real)JOINS, scene);
     const integer new_1 = search->left - 1;
     search->best = best;
-    search->one = -one;
+    search->side = -side;
     search->left = new_1;
     search->refinement = refinement;
     return;
@@ -2900,7 +2903,7 @@ static inline Leaves with_leaf(Leaves leaves, integer number) {
  * Cells are visited in the order of their phases, and halved as long as a word may join inside them early enough.
  */
 static inline void coarse_search(WindSearch *search) {
-    const integer one = search->one;
+    const integer side = search->side;
     const WindScene scene = search->scene;
     const WindCandidate best = search->best;
     CellVisit visit = search->visit;
@@ -2911,10 +2914,10 @@ static inline void coarse_search(WindSearch *search) {
     while (left > 0 && start.path.time == INFINITY && visit.number < shift_left(FIRST_CELLS, visit.level)) {
         left -= 1;
         const real_2 middle_of_1 = middle_of(visit);
-        integer words = words_inside(middle_of_1.a0, middle_of_1.a1, (visit.words & ALL_WORDS), one, scene,
+        integer words = words_inside(middle_of_1.a0, middle_of_1.a1, (visit.words & ALL_WORDS), side, scene,
                 best.path.time);
         if (words != 0 && visit.level >= COARSE) {
-            const integer_LeafEnd_JoinPoint examine_cell_2 = examine_cell(visit, words, one, scene, before, best);
+            const integer_LeafEnd_JoinPoint examine_cell_2 = examine_cell(visit, words, side, scene, before, best);
             words = examine_cell_2.a0;
             before = examine_cell_2.a1;
             start = examine_cell_2.a2;
@@ -2930,7 +2933,7 @@ static inline void coarse_search(WindSearch *search) {
     search->leaves = leaves;
     search->left = left;
     if (start.path.time < INFINITY) {
-        search->refinement = refinement_from(start, one, TWO_PI / (real)shift_left(FIRST_CELLS, LEAF));
+        search->refinement = refinement_from(start, side, TWO_PI / (real)shift_left(FIRST_CELLS, LEAF));
         return;
     }
     if (visit.number < shift_left(FIRST_CELLS, visit.level)) {
@@ -2953,9 +2956,9 @@ static inline real time_tolerance(WindCandidate best, WindScene scene) {
     return WIND_TIE_TOLERANCE * (1.0 + scene.R + best.path.time);
 }
 
-/* The tolerance after `MOST_VISITS` cells: an upper bound on the time to hold the circle through 2 pi/4096. */
+/* The tolerance after `MOST_VISITS` cells: an upper bound on the time to hold the circle through `UNKNOWN_ARC`. */
 static inline real hold_tolerance(WindScene scene) {
-    return scene.R / (1.0 - length(scene.wx, scene.wy)) * (TWO_PI / 4096.0);
+    return scene.R / (1.0 - length(scene.wx, scene.wy)) * UNKNOWN_ARC;
 }
 
 /* The two arcs of which the best path consists, up to rounding; `NO_CORNER` for another path. */
@@ -3156,7 +3159,7 @@ static inline real_WindCandidate compare_at_end(CellVisit visit, integer side, W
 
 /* The search after cells inside the leaves of one side that are left, until a path has to be refined. */
 static inline void fine_search(WindSearch *search) {
-    const integer one = search->one;
+    const integer side = search->side;
     const WindScene scene = search->scene;
     const WindCandidate best = search->best;
     const Leaves leaves = search->leaves;
@@ -3176,8 +3179,9 @@ static inline void fine_search(WindSearch *search) {
         const real tolerance = visits <= MOST_VISITS ? time_tolerance(best, scene) : hold_tolerance(scene);
         const real sooner = best.path.time - tolerance;
         const real_2 middle_of_1 = middle_of(visit);
-        integer words = words_inside(middle_of_1.a0, middle_of_1.a1, (visit.words & ALL_WORDS), one, scene, sooner);
-        if (words != 0 && one == best.side) {
+        integer words = words_inside(middle_of_1.a0, middle_of_1.a1, (visit.words & ALL_WORDS), side, scene,
+                sooner);
+        if (words != 0 && side == best.side) {
             if (best.path.time < compared) {
                 corner = corner_of(best, scene);
                 compared = best.path.time;
@@ -3185,7 +3189,7 @@ static inline void fine_search(WindSearch *search) {
             words = words_beside_best(visit, words, scene, best, corner, sooner);
         }
         if (words != 0 && integer_modulo(LAST - visit.level, 2) == 0 && visit.level > LEAF) {
-            const real_WindCandidate compare_at_end_2 = compare_at_end(visit, one, scene, best);
+            const real_WindCandidate compare_at_end_2 = compare_at_end(visit, side, scene, best);
             const real earliest = compare_at_end_2.a0;
             start = compare_at_end_2.a1;
             cell = (OpenCell){words, earliest, tolerance};
@@ -3484,7 +3488,7 @@ static inline real step_without_zero(real value, real slope, real bend) {
 
 /* A step within which the excess falls by at most half a turn, and LSR and RSL neither begin nor cease to exist. */
 static inline real step_of_excess(integer u, integer last, Excess excess, Bounds limits, WindScene scene, real
-        tolerance) {
+        length_tolerance) {
     real step = limits.step;
     if (limits.speed > 0.0) {
         step = min_real(step, 0.5 * 3.141592653589793 / limits.speed);
@@ -3495,7 +3499,7 @@ static inline real step_of_excess(integer u, integer last, Excess excess, Bounds
     const real distance = sqrt(max_real(excess.apart + 4.0, 0.0)) + limits.speed * step;
     const Bends bends = bends_of_square(u, distance, limits, scene);
     const real low = min_real(bends.down, bends.size), high = min_real(bends.up, bends.size);
-    if (fabs(excess.apart) <= tolerance) {
+    if (fabs(excess.apart) <= length_tolerance) {
         return min_real(step, max_real(high > 0.0 ? fabs(excess.apart_slope) / high : step, DOUBLE_ROOT));
     }
     if (excess.apart > 0.0) {
@@ -3539,14 +3543,14 @@ static inline WindCandidate first_with_straight(integer u, integer last, SlotPos
         real until_) {
     SlotPose pose = begin;
     const WindCandidate none = (WindCandidate){0.0, slot.side, NO_PATH};
-    const real tolerance = 4.0 * scene.arc_tolerance;
+    const real length_tolerance = 4.0 * scene.arc_tolerance;
     Excess excess = excess_at(u, last, pose, slot, scene);
     if (bounds_at(last, pose, slot, scene).speed <= ROUNDING) {
         /* The last arc is on the circle itself: the vehicle would have been in the slot before. */
         return none;
     }
     Path path;
-    if (fabs(excess.value) <= tolerance && excess.apart >= -tolerance) {
+    if (fabs(excess.value) <= length_tolerance && excess.apart >= -length_tolerance) {
         path = path_with_straight(u, last, pose, scene);
         if (path.time < INFINITY) {
             return (WindCandidate){slot.phase + pose.width, slot.side, path};
@@ -3557,10 +3561,10 @@ static inline WindCandidate first_with_straight(integer u, integer last, SlotPos
             return none;
         }
         const Bounds limits = bounds_at(last, pose, slot, scene);
-        const real step = step_of_excess(u, last, excess, limits, scene, tolerance);
+        const real step = step_of_excess(u, last, excess, limits, scene, length_tolerance);
         const SlotPose ahead = slot_pose(pose.width + step, slot, scene);
         const Excess excess_ahead = excess_at(u, last, ahead, slot, scene);
-        const bool exists = excess.apart >= -tolerance && excess_ahead.apart >= -tolerance;
+        const bool exists = excess.apart >= -length_tolerance && excess_ahead.apart >= -length_tolerance;
         if (exists && (excess.value >= 0.0 && 0.0 > excess_ahead.value) && excess.value - excess_ahead.value <=
                 3.141592653589793 + 1.0) {
             const SlotPose root = root_of_excess(u, last, pose, ahead, slot, scene);
@@ -3600,7 +3604,7 @@ static inline WindCandidate first_of_three_arcs(integer u, integer halves, SlotP
     }
     const SlotPose origin = slot_pose(0.0, slot, scene);
     SlotPose pose = begin;
-    const real tolerance = 12.0 * scene.arc_tolerance;
+    const real length_tolerance = 12.0 * scene.arc_tolerance;
     const real half = 3.141592653589793 * (real)halves - 0.5 * angle(arc_rotation(u, scene.c, scene.s, origin.c,
             origin.s));
     for (integer pass_1 = 0; pass_1 < MOST_STEPS; pass_1++) {
@@ -3619,7 +3623,7 @@ static inline WindCandidate first_of_three_arcs(integer u, integer halves, SlotP
         const real high = min_real(bends.up + square + 4.0 * limits.speed_change, bends.size + square);
         const real spread = distance + 4.0 * sin(0.5 * middle.arc);
         real step;
-        if (fabs(middle.value) <= tolerance * (spread + tolerance)) {
+        if (fabs(middle.value) <= length_tolerance * (spread + length_tolerance)) {
             const Path path = path_of_three_arcs(u, middle, pose, scene);
             if (path.time < INFINITY) {
                 return (WindCandidate){slot.phase + pose.width, slot.side, path};
@@ -3681,7 +3685,7 @@ static inline WindEntry arrival_of(WindCandidate found, WindScene scene) {
 
 /* The first arrival in the slot that is at a phase at the time 0; nan, with a status, where there is none.
  *
- * The side of the problem must be 1 or -1. Its tolerance is not used.
+ * The side of the problem must be 1 or -1. The slot is entered exactly.
  */
 static inline WindEntry first_in_slot(WindProblem problem, real phase) {
     const integer status = wind_search_status_of(problem);

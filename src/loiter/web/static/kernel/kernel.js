@@ -4,7 +4,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: c035e808cba73454bcee0956f5f7b888c551e9bb1e2c0ba3b340f54eda78f118
+ * SHA-256 of the source: 8731cd0cd06ad7c9946577e2de2924ef8a890e152699e5038ec26053ea03c083
  */
 
 // What Python has and JavaScript has not: the first of two that tie, and quotients rounded down. Integers are doubles
@@ -205,14 +205,14 @@ export const Word = { EMPTY: 0, R: 1, L: 3, SR: 6, SL: 14, RL: 13, LR: 7, RSR: 2
 /**
  * A search for the fastest entry, which `advance_search` continues: its stage, and what is known so far.
  *
- * The sides of the circle that are asked for are `sides`, that which is searched now is `one`. `best` is the
+ * The sides of the circle that are asked for are `sides`, that which is searched now is `side`. `best` is the
  * fastest path found, `beside` the entry beside the circle that counts, too. `visit` is the next cell; `before` the
  * end of the leaf before it, `leaves` those that are left on this side, and `others` on the other one. `corner` is
  * that of the best path, which took the time `compared`, and `visits` the number of cells so far. While there is a
  * refinement, it is continued first; `cell` is the cell that waits for it. `left` is the number of steps that may
  * follow at once, and `entry` the result once the stage is ENDED.
  *
- * @typedef {{stage: number, sides: number, one: number, scene: WindScene, best: WindCandidate, beside: EntryBeside,
+ * @typedef {{stage: number, sides: number, side: number, scene: WindScene, best: WindCandidate, beside: EntryBeside,
  *         visit: CellVisit, before: LeafEnd, leaves: Leaves, others: Leaves, corner: Corner, compared: number,
  *         visits: number, refinement: Refinement, cell: OpenCell, left: number, entry: WindEntry}} WindSearch
  */
@@ -357,7 +357,7 @@ export const WIND_TIE_TOLERANCE = 1e-12;
 /* A slower wind displaces no point within REACH by as much as rounding, and its square would be subnormal. */
 export const NEGLIGIBLE_WIND = 3.8725919148493183e-121; /* 2.0 ** (-400) */
 /** @type {WindSearch} */
-export const NO_SEARCH = { stage: 0, sides: 0, one: 1, scene: { x: 0.0, y: 0.0, c: 1.0, s: 0.0, R: 1.0, wx: 0.0, wy: 0.0, arc_tolerance: 0.0 }, best: { phase: 0.0, side: 0, path: { time: Infinity, word: 0, t1: 0.0, t2: 0.0, t3: 0.0, lam: 1.0, p1: 1.0, p2: 0.0 } }, beside: { entry: { side: 0, word: 0, t1: Infinity, t2: 0.0, t3: 0.0 }, phase: 0.0, miss: Infinity }, visit: { number: 0, level: 0, words: 63 }, before: { number: -2, point: { phase: 0.0, path: { time: Infinity, word: 0, t1: 0.0, t2: 0.0, t3: 0.0, lam: 1.0, p1: 1.0, p2: 0.0 }, slope: 0.0 } }, leaves: { first: 0, second: 0, third: 0, fourth: 0 }, others: { first: 0, second: 0, third: 0, fourth: 0 }, corner: { phase: 0.0, u: 0, t1: 0.0, t2: 0.0 }, compared: Infinity, visits: 0, refinement: { stage: 0, side: 0, width: 0.0, here: { phase: 0.0, path: { time: Infinity, word: 0, t1: 0.0, t2: 0.0, t3: 0.0, lam: 1.0, p1: 1.0, p2: 0.0 }, slope: 0.0 }, other: { phase: 0.0, path: { time: Infinity, word: 0, t1: 0.0, t2: 0.0, t3: 0.0, lam: 1.0, p1: 1.0, p2: 0.0 }, slope: 0.0 }, last: { phase: 0.0, path: { time: Infinity, word: 0, t1: 0.0, t2: 0.0, t3: 0.0, lam: 1.0, p1: 1.0, p2: 0.0 }, slope: 0.0 }, words: 0, bisect: false, steps: 0, enclosures: 0 }, cell: { words: 0, earliest: 0.0, tolerance: 0.0 }, left: 0, entry: { status: 12, side: 0, word: 0, t1: NaN, t2: NaN, t3: NaN, azimuth: NaN, miss: NaN } };
+export const NO_SEARCH = { stage: 0, sides: 0, side: 1, scene: { x: 0.0, y: 0.0, c: 1.0, s: 0.0, R: 1.0, wx: 0.0, wy: 0.0, arc_tolerance: 0.0 }, best: { phase: 0.0, side: 0, path: { time: Infinity, word: 0, t1: 0.0, t2: 0.0, t3: 0.0, lam: 1.0, p1: 1.0, p2: 0.0 } }, beside: { entry: { side: 0, word: 0, t1: Infinity, t2: 0.0, t3: 0.0 }, phase: 0.0, miss: Infinity }, visit: { number: 0, level: 0, words: 63 }, before: { number: -2, point: { phase: 0.0, path: { time: Infinity, word: 0, t1: 0.0, t2: 0.0, t3: 0.0, lam: 1.0, p1: 1.0, p2: 0.0 }, slope: 0.0 } }, leaves: { first: 0, second: 0, third: 0, fourth: 0 }, others: { first: 0, second: 0, third: 0, fourth: 0 }, corner: { phase: 0.0, u: 0, t1: 0.0, t2: 0.0 }, compared: Infinity, visits: 0, refinement: { stage: 0, side: 0, width: 0.0, here: { phase: 0.0, path: { time: Infinity, word: 0, t1: 0.0, t2: 0.0, t3: 0.0, lam: 1.0, p1: 1.0, p2: 0.0 }, slope: 0.0 }, other: { phase: 0.0, path: { time: Infinity, word: 0, t1: 0.0, t2: 0.0, t3: 0.0, lam: 1.0, p1: 1.0, p2: 0.0 }, slope: 0.0 }, last: { phase: 0.0, path: { time: Infinity, word: 0, t1: 0.0, t2: 0.0, t3: 0.0, lam: 1.0, p1: 1.0, p2: 0.0 }, slope: 0.0 }, words: 0, bisect: false, steps: 0, enclosures: 0 }, cell: { words: 0, earliest: 0.0, tolerance: 0.0 }, left: 0, entry: { status: 12, side: 0, word: 0, t1: NaN, t2: NaN, t3: NaN, azimuth: NaN, miss: NaN } };
 
 /* The stages of a search: on each side, first some points, then cells down to the leaves, then the leaves that are
  * left.
@@ -474,6 +474,9 @@ export const NO_CANDIDATE = { phase: 0.0, side: 0, path: { time: Infinity, word:
  * degenerate scenes, some of those in still air with R = 1 or 2; the slowest others found take some 2,500.
  */
 export const MOST_VISITS = 4096;
+
+/* The arc of the circle that is held for `hold_tolerance`. */
+export const UNKNOWN_ARC = 0.0015339807878856412; /* TWO_PI / 4096.0 */
 
 /* In cells within this many half widths of the end of the best path, bounds around that end are tried too. */
 export const NEAR_BEST = 8.0;
@@ -2395,9 +2398,9 @@ export function begin_search(problem) {
             return { ...search, stage: ENDED, entry: entry_at(entry, phase, miss, scene) };
         }
     }
-    for (const one of [1, -1]) {
-        if (problem.side !== 0 - one && is_on_circle(one, scene)) {
-            search = { ...search, best: start_on_circle(one, scene) };
+    for (const side of [1, -1]) {
+        if (problem.side !== 0 - side && is_on_circle(side, scene)) {
+            search = { ...search, best: start_on_circle(side, scene) };
         }
     }
     if (search.best.side !== 0) {
@@ -3070,17 +3073,17 @@ export function next_leaf(leaf) {
  * @type {(search: WindSearch) => WindSearch}
  */
 export function next_stage(search) {
-    const stage = search.stage + 1, one = 0 - search.one;
+    const stage = search.stage + 1, side = 0 - search.side;
     if (stage === ENDED) {
         return end_search(search);
     }
     let visit = FIRST_CELL;
-    if (stage > COARSE_OTHER || search.sides === 0 - one) {
+    if (stage > COARSE_OTHER || search.sides === 0 - side) {
         const first = search.others.first, second = search.others.second, third = search.others.third, fourth =
                 search.others.fourth;
         visit = next_leaf((((first | second) | third) | fourth) !== 0 ? -1 : shift_left(FIRST_CELLS, LEAF));
     }
-    return { ...search, stage: stage, one: one, visit: visit, before: NO_LEAF_END, leaves: search.others, others:
+    return { ...search, stage: stage, side: side, visit: visit, before: NO_LEAF_END, leaves: search.others, others:
             search.leaves, corner: NO_CORNER, compared: Infinity, visits: 0 };
 }
 
@@ -3151,7 +3154,7 @@ export function refine_path(search) {
     const found = minimum_of(refinement), best = search.best;
     if (search.stage === JOINING) {
         // The better side is searched first, which shortens the search on the other side.
-        search = { ...search, best: found, one: found.side !== 0 ? 0 - found.side : -1 };
+        search = { ...search, best: found, side: found.side !== 0 ? 0 - found.side : -1 };
         return found.path.time > 0.0 ? next_stage(search) : end_search(search);
     }
     if (search.stage <= COARSE_OTHER) {
@@ -3185,12 +3188,12 @@ export function best_of_joins(side, scene, best) {
  */
 export function join_one_side(search) {
     let best = search.best;
-    const scene = search.scene, one = search.one;
-    if (search.sides !== 0 - one) {
-        best = best_of_joins(one, scene, best);
+    const scene = search.scene, side = search.side;
+    if (search.sides !== 0 - side) {
+        best = best_of_joins(side, scene, best);
     }
-    const refinement = one === 1 ? NO_REFINEMENT : begin_refinement(best, TWO_PI / JOINS, scene);
-    return { ...search, best: best, one: 0 - one, left: search.left - 1, refinement: refinement };
+    const refinement = side === 1 ? NO_REFINEMENT : begin_refinement(best, TWO_PI / JOINS, scene);
+    return { ...search, best: best, side: 0 - side, left: search.left - 1, refinement: refinement };
 }
 
 /**
@@ -3824,16 +3827,16 @@ export function with_leaf(leaves, number) {
  * @type {(search: WindSearch) => WindSearch}
  */
 export function coarse_search(search) {
-    const one = search.one, scene = search.scene, best = search.best;
+    const side = search.side, scene = search.scene, best = search.best;
     let visit = search.visit, before = search.before;
     let leaves = search.leaves, left = search.left, start = NO_POINT;
     while (left > 0 && start.path.time === Infinity && visit.number < shift_left(FIRST_CELLS, visit.level)) {
         left -= 1;
         const middle_of_1 = middle_of(visit);
-        let words = words_inside(middle_of_1[0], middle_of_1[1], (visit.words & ALL_WORDS), one, scene,
+        let words = words_inside(middle_of_1[0], middle_of_1[1], (visit.words & ALL_WORDS), side, scene,
                 best.path.time);
         if (words !== 0 && visit.level >= COARSE) {
-            const examine_cell_2 = examine_cell(visit, words, one, scene, before, best);
+            const examine_cell_2 = examine_cell(visit, words, side, scene, before, best);
             words = examine_cell_2[0];
             before = examine_cell_2[1];
             start = examine_cell_2[2];
@@ -3846,7 +3849,7 @@ export function coarse_search(search) {
     }
     search = { ...search, visit: visit, before: before, leaves: leaves, left: left };
     if (start.path.time < Infinity) {
-        return { ...search, refinement: refinement_from(start, one, TWO_PI / shift_left(FIRST_CELLS, LEAF)) };
+        return { ...search, refinement: refinement_from(start, side, TWO_PI / shift_left(FIRST_CELLS, LEAF)) };
     }
     return visit.number < shift_left(FIRST_CELLS, visit.level) ? search : next_stage(search);
 }
@@ -3873,12 +3876,12 @@ export function time_tolerance(best, scene) {
 }
 
 /**
- * The tolerance after `MOST_VISITS` cells: an upper bound on the time to hold the circle through 2 pi/4096.
+ * The tolerance after `MOST_VISITS` cells: an upper bound on the time to hold the circle through `UNKNOWN_ARC`.
  *
  * @type {(scene: WindScene) => number}
  */
 export function hold_tolerance(scene) {
-    return scene.R / (1.0 - length(scene.wx, scene.wy)) * (TWO_PI / 4096.0);
+    return scene.R / (1.0 - length(scene.wx, scene.wy)) * UNKNOWN_ARC;
 }
 
 /**
@@ -4100,7 +4103,7 @@ export function compare_at_end(visit, side, scene, best) {
  * @type {(search: WindSearch) => WindSearch}
  */
 export function fine_search(search) {
-    const one = search.one, scene = search.scene, best = search.best, leaves = search.leaves;
+    const side = search.side, scene = search.scene, best = search.best, leaves = search.leaves;
     let visit = search.visit;
     let corner = search.corner, compared = search.compared, visits = search.visits, left = search.left;
     let start = NO_CANDIDATE, cell = search.cell;
@@ -4114,8 +4117,8 @@ export function fine_search(search) {
         const tolerance = visits <= MOST_VISITS ? time_tolerance(best, scene) : hold_tolerance(scene);
         const sooner = best.path.time - tolerance;
         const middle_of_1 = middle_of(visit);
-        let words = words_inside(middle_of_1[0], middle_of_1[1], (visit.words & ALL_WORDS), one, scene, sooner);
-        if (words !== 0 && one === best.side) {
+        let words = words_inside(middle_of_1[0], middle_of_1[1], (visit.words & ALL_WORDS), side, scene, sooner);
+        if (words !== 0 && side === best.side) {
             if (best.path.time < compared) {
                 corner = corner_of(best, scene);
                 compared = best.path.time;
@@ -4123,7 +4126,7 @@ export function fine_search(search) {
             words = words_beside_best(visit, words, scene, best, corner, sooner);
         }
         if (words !== 0 && integer_modulo(LAST - visit.level, 2) === 0 && visit.level > LEAF) {
-            const compare_at_end_2 = compare_at_end(visit, one, scene, best);
+            const compare_at_end_2 = compare_at_end(visit, side, scene, best);
             const earliest = compare_at_end_2[0];
             start = compare_at_end_2[1];
             cell = { words, earliest, tolerance };
@@ -4248,7 +4251,7 @@ export function local_minima(problem) {
  * @type {(problem: WindProblem) => WindEntry[]}
  */
 export function wind_search_ranked(problem) {
-    const sides = [1, -1].filter((one) => problem.side !== 0 - one).map((one) => ({ ...problem, side: one }));
+    const sides = [1, -1].filter((side) => problem.side !== 0 - side).map((side) => ({ ...problem, side: side }));
     let found = sides.map((one) => wind_search_fastest(one));
     if (found.some((maneuver) => maneuver.status !== Status.OK)) {
         return [];
@@ -4675,9 +4678,10 @@ export function step_without_zero(value, slope, bend) {
 /**
  * A step within which the excess falls by at most half a turn, and LSR and RSL neither begin nor cease to exist.
  *
- * @type {(u: number, last: number, excess: Excess, limits: Bounds, scene: WindScene, tolerance: number) => number}
+ * @type {(u: number, last: number, excess: Excess, limits: Bounds, scene: WindScene, length_tolerance: number) =>
+ *         number}
  */
-export function step_of_excess(u, last, excess, limits, scene, tolerance) {
+export function step_of_excess(u, last, excess, limits, scene, length_tolerance) {
     let step = limits.step;
     if (limits.speed > 0.0) {
         step = min_real(step, 0.5 * 3.141592653589793 / limits.speed);
@@ -4688,7 +4692,7 @@ export function step_of_excess(u, last, excess, limits, scene, tolerance) {
     const distance = Math.sqrt(max_real(excess.apart + 4.0, 0.0)) + limits.speed * step;
     const bends = bends_of_square(u, distance, limits, scene);
     const low = min_real(bends.down, bends.size), high = min_real(bends.up, bends.size);
-    if (Math.abs(excess.apart) <= tolerance) {
+    if (Math.abs(excess.apart) <= length_tolerance) {
         return min_real(step, max_real(high > 0.0 ? Math.abs(excess.apart_slope) / high : step, DOUBLE_ROOT));
     }
     if (excess.apart > 0.0) {
@@ -4737,14 +4741,14 @@ export function root_of_excess(u, last, a, b, slot, scene) {
 export function first_with_straight(u, last, begin, slot, scene, until_) {
     let pose = begin;
     const none = { phase: 0.0, side: slot.side, path: NO_PATH };
-    const tolerance = 4.0 * scene.arc_tolerance;
+    const length_tolerance = 4.0 * scene.arc_tolerance;
     let excess = excess_at(u, last, pose, slot, scene);
     if (bounds_at(last, pose, slot, scene).speed <= ROUNDING) {
         // The last arc is on the circle itself: the vehicle would have been in the slot before.
         return none;
     }
     let path;
-    if (Math.abs(excess.value) <= tolerance && excess.apart >= -tolerance) {
+    if (Math.abs(excess.value) <= length_tolerance && excess.apart >= -length_tolerance) {
         path = path_with_straight(u, last, pose, scene);
         if (path.time < Infinity) {
             return { phase: slot.phase + pose.width, side: slot.side, path };
@@ -4755,10 +4759,11 @@ export function first_with_straight(u, last, begin, slot, scene, until_) {
             return none;
         }
         const limits = bounds_at(last, pose, slot, scene);
-        const step = step_of_excess(u, last, excess, limits, scene, tolerance);
+        const step = step_of_excess(u, last, excess, limits, scene, length_tolerance);
         const ahead = slot_pose(pose.width + step, slot, scene);
         const excess_ahead = excess_at(u, last, ahead, slot, scene);
-        /** @type {boolean} */ const exists = excess.apart >= -tolerance && excess_ahead.apart >= -tolerance;
+        /** @type {boolean} */ const exists = excess.apart >= -length_tolerance && excess_ahead.apart >=
+                -length_tolerance;
         if (exists && (excess.value >= 0.0 && 0.0 > excess_ahead.value) && excess.value - excess_ahead.value <=
                 3.141592653589793 + 1.0) {
             const root = root_of_excess(u, last, pose, ahead, slot, scene);
@@ -4819,7 +4824,7 @@ export function first_of_three_arcs(u, halves, begin, slot, scene, until_) {
     }
     const origin = slot_pose(0.0, slot, scene);
     let pose = begin;
-    const tolerance = 12.0 * scene.arc_tolerance;
+    const length_tolerance = 12.0 * scene.arc_tolerance;
     const half = 3.141592653589793 * halves - 0.5 * angle(arc_rotation(u, scene.c, scene.s, origin.c, origin.s));
     for (let pass_1 = 0; pass_1 < MOST_STEPS; pass_1++) {
         if (pose.time > until_) {
@@ -4836,7 +4841,7 @@ export function first_of_three_arcs(u, halves, begin, slot, scene, until_) {
         const high = min_real(bends.up + square + 4.0 * limits.speed_change, bends.size + square);
         const spread = distance + 4.0 * sin(0.5 * middle.arc);
         let step;
-        if (Math.abs(middle.value) <= tolerance * (spread + tolerance)) {
+        if (Math.abs(middle.value) <= length_tolerance * (spread + length_tolerance)) {
             const path = path_of_three_arcs(u, middle, pose, scene);
             if (path.time < Infinity) {
                 return { phase: slot.phase + pose.width, side: slot.side, path };
@@ -4898,7 +4903,7 @@ export function arrival_of(found, scene) {
 /**
  * The first arrival in the slot that is at a phase at the time 0; nan, with a status, where there is none.
  *
- * The side of the problem must be 1 or -1. Its tolerance is not used.
+ * The side of the problem must be 1 or -1. The slot is entered exactly.
  *
  * @type {(problem: WindProblem, phase: number) => WindEntry}
  */
