@@ -16,7 +16,7 @@ from golden.build_public import PACKAGES
 from web.browsing import AXE, browsing
 
 ROOT = Path(__file__).parents[2]
-SIZES = {"phone": (390, 844), "tablet": (820, 1180), "desk": (1440, 900)}
+SIZES = {"phone": (390, 844), "desk": (1440, 900)}
 PAGES = [
     "index.html",
     "tutorials/student.html",
@@ -234,7 +234,7 @@ def test_thumbnails_are_wide_enough_to_be_seen(desk, site):
         assert min(shown) >= 220
 
 
-@pytest.mark.parametrize(("size", "scheme"), [("desk", "light"), ("tablet", "dark"), ("phone", "dark")])
+@pytest.mark.parametrize(("size", "scheme"), [("desk", "light"), ("phone", "dark")])
 @pytest.mark.parametrize("name", PAGES)
 def test_a_page_is_readable_and_asks_for_nothing(site, browser, name, size, scheme):
     """From the disk, as one who has unpacked the site reads it."""
