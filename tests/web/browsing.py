@@ -2,6 +2,7 @@
 
 import json
 import re
+import subprocess
 import sys
 from pathlib import Path
 
@@ -9,6 +10,7 @@ import numpy as np
 from benchmarks.browsing import NODE, SCRIPT, browsing, served, settle  # noqa: F401 (tests find them here)
 
 import loiter
+from loiter.web.app import STATIC
 
 # Chords of the tracks are off by less than this many turn radii (the service's promise); a path is drawn to a hundredth
 # of a pixel in each coordinate.
@@ -27,9 +29,28 @@ HANDLES = {
 }
 
 
+def in_module(module, expression):
+    """The value of an expression over the functions of a module of the page, run by Node, as JSON."""
+    url = json.dumps((STATIC / module).as_uri())
+    code = f"import({url}).then((module) => console.log(JSON.stringify({expression})))"
+    done = subprocess.run([NODE, "-e", code], capture_output=True, text=True, check=True)
+    return json.loads(done.stdout)
+
+
 def press(page, name):
     """Press a button and wait for what follows."""
     page.get_by_role("button", name=name, exact=True).click()
+    settle(page)
+
+
+def reopen(page, link):
+    """Open a link on a page that is open."""
+    page.evaluate(
+        """link => new Promise(opened => {
+            addEventListener("hashchange", opened, { once: true });
+            location.hash = link; }).then(() => {})""",
+        link,
+    )
     settle(page)
 
 

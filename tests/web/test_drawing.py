@@ -5,9 +5,9 @@ import re
 import pytest
 
 import loiter
-from web.browsing import DESK, PHONE, TABLET, assert_shows_the_plan, middle, press, scene, settle, time_text, values
+from web.browsing import DESK, PHONE, assert_shows_the_plan, middle, press, scene, settle, time_text, values
 
-DEVICES = {"desk": {"viewport": DESK}, "tablet": TABLET, "phone": PHONE}
+DEVICES = {"desk": {"viewport": DESK}, "phone": PHONE}
 HANDLES = ("aircraft", "heading", "centre", "radius")
 
 

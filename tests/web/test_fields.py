@@ -1,59 +1,63 @@
 """Numbers typed on the page: decimals, units, what is not understood, what the service refuses."""
 
+import json
 import re
 
 import pytest
 from playwright.sync_api import expect
 
-from web.browsing import assert_shows_the_plan, middle, scene, settle
+from web.browsing import assert_shows_the_plan, in_module, middle, scene, settle
 
 KNOT = 1852 / 3600
+# A text, its quantity, and its number in metres, metres per second or degrees.
 UNDERSTOOD = [
-    ("airspeed", "aircraft", "airspeed_m_s", "21,5", 21.5),
-    ("airspeed", "aircraft", "airspeed_m_s", "72 km/h", 20.0),
+    ("21,5", "speed", 21.5),
+    ("72 km/h", "speed", 20.0),
+    (" 40 KT ", "speed", 40 * KNOT),
+    ("40kts", "speed", 40 * KNOT),
+    ("2,05e1 m/s", "speed", 20.5),
+    ("45 mph", "speed", 45 * 1609.344 / 3600),
+    ("40 deg", "degrees", 40.0),
+    ("80,25m", "length", 80.25),
+    ("300 ft", "length", 91.44),
+    ("−400", "length", -400.0),
+    ("0.1nmi", "length", 185.2),
+    ("0.1 NM", "length", 185.2),
+    ("12,5", "direction", 12.5),
+]
+TYPED = [
     ("airspeed", "aircraft", "airspeed_m_s", "40kn", 40 * KNOT),
-    ("airspeed", "aircraft", "airspeed_m_s", " 40 KT ", 40 * KNOT),
-    ("airspeed", "aircraft", "airspeed_m_s", "2,05e1 m/s", 20.5),
     ("limit", "aircraft", "max_bank_deg", "37,5°", 37.5),
-    ("limit", "aircraft", "max_bank_deg", "40 deg", 40.0),
-    ("circle-radius", "orbit", "radius_m", "80,25m", 80.25),
     ("circle-radius", "orbit", "radius_m", "0,125 km", 125.0),
-    ("circle-radius", "orbit", "radius_m", "300 ft", 91.44),
-    ("east", "pose", "east_m", "−400", -400.0),
     ("east", "pose", "east_m", "-.4km", -400.0),
-    ("course", "pose", "heading_deg", "12,5", 12.5),
     ("course", "pose", "heading_deg", "090T", 90.0),
-    ("airspeed", "aircraft", "airspeed_m_s", "40kts", 40 * KNOT),
-    ("airspeed", "aircraft", "airspeed_m_s", "45 mph", 45 * 1609.344 / 3600),
-    ("circle-radius", "orbit", "radius_m", "0.1nmi", 185.2),
-    ("circle-radius", "orbit", "radius_m", "0.1 NM", 185.2),
+]
+LENGTHS = "the accepted units are m, km, ft, nm and nmi."
+NOT_UNDERSTOOD = [
+    ("", "speed", "needs a number."),
+    ("20 m", "speed", 'is "20 m": the accepted units are m/s, km/h, kn, kt, kts and mph.'),
+    ("87M", "direction", 'is "87M": the accepted units are °, deg and t.'),
+    ("0.5 rad", "degrees", 'is "0.5 rad": the accepted units are ° and deg.'),
+    ("80 furlongs", "length", f'is "80 furlongs": {LENGTHS}'),
+    ("80 constructor", "length", f'is "80 constructor": {LENGTHS}'),
+    ("0x10", "length", f'is "0x10": {LENGTHS}'),
+    ("1,200.5", "length", 'is "1,200.5": write the number without separators, 1200.5 or 1200,5.'),
+    ("1 200", "length", 'is "1 200": write the number without separators, 1200.5 or 1200,5.'),
+    ("1e999", "length", 'is "1e999": that is too large.'),
 ]
 REFUSED = [
-    ("airspeed", "", "Airspeed needs a number."),
     ("airspeed", "fast", 'Airspeed is "fast": it must be a number.'),
-    ("airspeed", "20 m", 'Airspeed is "20 m": the accepted units are m/s, km/h, kn, kt, kts and mph.'),
-    ("course", "87M", 'Heading of the aircraft is "87M": the accepted units are °, deg and t.'),
-    ("limit", "0.5 rad", 'Bank limit is "0.5 rad": the accepted units are ° and deg.'),
-    (
-        "circle-radius",
-        "80 furlongs",
-        'Radius of the circle is "80 furlongs": the accepted units are m, km, ft, nm and nmi.',
-    ),
+    ("limit", "", "Bank limit needs a number."),
     ("circle-radius", "1,200", 'Radius of the circle is "1,200": write 1.2 or 1200.'),
-    (
-        "circle-radius",
-        "1,200.5",
-        'Radius of the circle is "1,200.5": write the number without separators, 1200.5 or 1200,5.',
-    ),
-    (
-        "circle-radius",
-        "1 200",
-        'Radius of the circle is "1 200": write the number without separators, 1200.5 or 1200,5.',
-    ),
-    ("circle-radius", "80 constructor", 'Radius of the circle is "80 constructor": the accepted units are'),
-    ("east", "1e999", 'East of the aircraft is "1e999": that is too large.'),
-    ("east", "0x10", 'East of the aircraft is "0x10": the accepted units are m, km, ft, nm and nmi.'),
 ]
+
+
+def test_numbers_are_read_with_decimals_and_units_or_refused_in_a_sentence():
+    asked = json.dumps([(text, quantity) for text, quantity, _ in UNDERSTOOD + NOT_UNDERSTOOD])
+    code = f"{asked}.map(([text, quantity]) => module.parseNumber(text, quantity, 'metric'))"
+    found = in_module("fields/number_text.js", code)
+    values = [{"value": pytest.approx(value, rel=1e-12)} for _, _, value in UNDERSTOOD]
+    assert found == [*values, *({"problem": problem} for _, _, problem in NOT_UNDERSTOOD)]
 
 
 def fault(page, field):
@@ -61,7 +65,7 @@ def fault(page, field):
 
 
 def test_decimals_and_units_are_understood(page, subtests):
-    for field, part, name, text, value in UNDERSTOOD:
+    for field, part, name, text, value in TYPED:
         with subtests.test(field=field, text=text):
             page.locator(f"#{field}").fill(text)
             settle(page)

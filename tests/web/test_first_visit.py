@@ -80,10 +80,14 @@ def test_fingers_have_room_and_fields_are_not_enlarged(opened):
     assert min(sizes) >= FIELD_PX
 
 
-@pytest.mark.parametrize("preset", ["Beside the circle", "Inside the circle"])
-def test_on_a_phone_the_dial_lies_beside_the_circle(opened, preset):
+def test_on_a_phone_the_dial_lies_beside_the_circle(opened):
     page = opened(**PHONE)
-    press(page, preset)
+    for preset in ("Beside the circle", "Inside the circle"):
+        press(page, preset)
+        dial_beside_circle(page)
+
+
+def dial_beside_circle(page):
     circle = page.locator("#plan .circle circle").evaluate(
         "({cx, cy, r}) => [cx, cy, r].map(({baseVal}) => baseVal.value)"
     )
@@ -220,26 +224,23 @@ def test_a_plan_that_is_dropped_gives_circle_aircraft_and_altitude(page, tmp_pat
 LOITER = {"type": "SimpleItem", "command": 17, "frame": 3, "params": [0, 0, 80, 0, 47.1, 8.2, 100]}
 
 
-@pytest.mark.parametrize(
-    ("text", "sentence"),
-    [
-        ("no json", "This file is no plan of QGroundControl: it is not JSON."),
-        ("null", "This file is no plan of QGroundControl."),
-        (json.dumps({"fileType": "Fence"}), "This file is no plan of QGroundControl."),
-        (json.dumps({"fileType": "Plan", "mission": {"items": []}}), "This plan has no loiter."),
-        (
-            json.dumps(
-                {"fileType": "Plan", "mission": {"items": [LOITER | {"params": [0, 0, None, 0, 47.1, 8.2, 9]}]}}
-            ),
-            "The loiter of this plan has no radius: the autopilot uses its own.",
-        ),
-    ],
-)
-def test_what_is_no_plan_with_a_circle_gets_a_sentence_and_changes_nothing(page, text, sentence):
+NO_PLANS = {
+    "no json": "This file is no plan of QGroundControl: it is not JSON.",
+    "null": "This file is no plan of QGroundControl.",
+    json.dumps({"fileType": "Plan", "mission": {"items": []}}): "This plan has no loiter.",
+    json.dumps({"fileType": "Fence"}): "This file is no plan of QGroundControl.",
+    json.dumps({"fileType": "Plan", "mission": {"items": [LOITER | {"params": [0, 0, None, 0, 47.1, 8.2, 9]}]}}): (
+        "The loiter of this plan has no radius: the autopilot uses its own."
+    ),
+}
+
+
+def test_what_is_no_plan_with_a_circle_gets_a_sentence_and_changes_nothing(page):
     before = scene(page)
-    drop(page, "a.plan", text)
-    expect(page.locator("#message")).to_have_text(sentence)
-    assert scene(page) == before
+    for text, sentence in NO_PLANS.items():
+        drop(page, "a.plan", text)
+        expect(page.locator("#message")).to_have_text(sentence)
+        assert scene(page) == before
 
 
 # The race

@@ -1,14 +1,12 @@
 """The keys of the page's links, which people have stored: in the page's own module, run by Node."""
 
 import json
-import subprocess
 from urllib.parse import parse_qsl
 
 import pytest
 
 import loiter
-from loiter.web.app import STATIC
-from web.browsing import NODE, values
+from web.browsing import in_module, values
 
 SCENE = {
     "pose": {"east_m": -400, "north_m": 120, "heading_deg": 90},
@@ -78,10 +76,7 @@ KEYS = {
 
 def run(expression):
     """The value of an expression over the functions of the page's module, as JSON."""
-    module = json.dumps((STATIC / "scene" / "link.js").as_uri())
-    code = f"import({module}).then(({{ toLink, fromLink }}) => console.log(JSON.stringify({expression})))"
-    done = subprocess.run([NODE, "-e", code], capture_output=True, text=True, check=True)
-    return json.loads(done.stdout)
+    return in_module("scene/link.js", f"(({{ toLink, fromLink }}) => {expression})(module)")
 
 
 def test_a_link_has_these_keys():

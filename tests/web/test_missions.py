@@ -4,7 +4,7 @@ import pytest
 from playwright.sync_api import expect
 
 from loiter.io import read_mission
-from web.browsing import PHONE, fly_at, located, measure_from, reference_of, scene, settle
+from web.browsing import PHONE, fly_at, located, measure_from, reference_of, reopen, scene, settle
 
 FORMATS = ["plan", "waypoints"]
 OLD_LINK = "#pose=90,60,100&orbit=0,0,80&turn=either&airspeed=18&bank=35&origin=47.1,8.2"
@@ -39,18 +39,30 @@ def asked_for(page, format_):
     return names
 
 
-@pytest.mark.parametrize("format_", FORMATS)
-def test_a_mission_is_not_written_at_an_altitude_that_nobody_gave(page, format_):
-    assert asked_for(page, format_) == ["latitude", "longitude", "altitude-reference", "altitude"]
+def test_a_mission_is_not_written_at_an_altitude_that_nobody_gave(page):
+    def asked():
+        first, again = (asked_for(page, format_) for format_ in FORMATS)
+        assert first == again
+        return first
+
+    assert asked() == ["latitude", "longitude", "altitude-reference", "altitude"]
     located(page)
-    assert asked_for(page, format_) == ["altitude-reference", "altitude"]
+    assert asked() == ["altitude-reference", "altitude"]
     page.locator("#altitude").fill("120")
-    assert asked_for(page, format_) == ["altitude-reference"]
+    assert asked() == ["altitude-reference"]
     measure_from(page, "home")
-    assert asked_for(page, format_) == ["home-altitude"]
+    assert asked() == ["home-altitude"]
     page.locator("#altitude").fill("")
     measure_from(page, "msl")
-    assert asked_for(page, format_) == ["altitude"]
+    assert asked() == ["altitude"]
+    page.locator("#altitude").fill("FL 65")
+    assert asked() == ["altitude"]
+    assert page.locator("#altitude-fault").inner_text() == 'Altitude is "FL 65": it must be a number.'
+    page.locator("#altitude").fill("99 km")
+    page.locator("[data-format=plan]").click()
+    fault = page.locator("#altitude-fault")
+    expect(fault).to_contain_text("Altitude is 99000: it must be from -83000 to 83000 metres")
+    assert page.locator("#altitude").get_attribute("aria-invalid") == "true"
 
 
 @pytest.mark.parametrize("device", [{}, PHONE], ids=["desk", "phone"])
@@ -107,23 +119,15 @@ def test_a_mission_has_the_altitude_and_the_reference(page, tmp_path, subtests):
                 assert {(item.frame, item.altitude_m) for item in flown.items} == {(frame, 620.0)}
                 assert flown.home[2] == home_m
                 assert said == f"entry.{format_} saved: {told}."
-
-
-def test_a_radius_that_arduplane_cannot_store_is_reported(page, tmp_path):
-    located(page)
-    fly_at(page, "620", "msl")
-    page.locator("#circle-radius").fill("120.7")
-    _, said = saved(page, "plan", tmp_path)
-    assert said.endswith("sea level. ArduPlane stores the radius in whole metres: 120 m.")
-
-
-def test_what_is_hidden_is_not_written(page, tmp_path):
-    located(page)
-    fly_at(page, "620", "home", "450")
+    # What is hidden is not written; a preset keeps place and altitude; ArduPlane stores whole metres.
     measure_from(page, "msl")
     assert not page.locator("#home-altitude").is_visible()
-    flown, _ = saved(page, "plan", tmp_path)
-    assert flown.home[2] == 620.0
+    page.get_by_role("button", name="Far away").click()
+    settle(page)
+    page.locator("#circle-radius").fill("120.7")
+    flown, said = saved(page, "plan", tmp_path)
+    assert (flown.items[0].altitude_m, flown.home[2]) == (620.0, 620.0)
+    assert said.endswith("sea level. ArduPlane stores the radius in whole metres: 120 m.")
 
 
 def test_an_altitude_is_in_the_units_shown(page, tmp_path):
@@ -136,23 +140,6 @@ def test_an_altitude_is_in_the_units_shown(page, tmp_path):
     assert flown.items[0].altitude_m == pytest.approx(304.8)
     assert flown.home[2] == 450.0
     assert said == "entry.plan saved: 1\u202f000 ft above home, home at 1\u202f476.4 ft."
-
-
-def test_an_altitude_that_is_not_understood_is_none(page):
-    located(page)
-    fly_at(page, "620", "msl")
-    page.locator("#altitude").fill("FL 65")
-    assert asked_for(page, "plan") == ["altitude"]
-    assert page.locator("#altitude-fault").inner_text() == 'Altitude is "FL 65": it must be a number.'
-
-
-def test_an_altitude_that_no_mission_may_have_is_marked(page):
-    located(page)
-    fly_at(page, "99 km", "msl")
-    page.locator("[data-format=plan]").click()
-    fault = page.locator("#altitude-fault")
-    expect(fault).to_contain_text("Altitude is 99000: it must be from -83000 to 83000 metres")
-    assert page.locator("#altitude").get_attribute("aria-invalid") == "true"
 
 
 def test_a_map_asks_where_it_is(page):
@@ -180,51 +167,32 @@ def test_a_map_has_an_altitude_where_it_is_known_above_the_sea(page):
 # Links
 
 
-@pytest.mark.parametrize(("reference", "home"), [("msl", None), ("home", "450"), ("ground", "12.5")])
-def test_a_link_keeps_the_altitude_and_what_it_is_measured_from(page, opened, address, tmp_path, reference, home):
+def test_a_link_keeps_the_altitude_and_what_it_is_measured_from(page, opened, address, tmp_path):
     located(page)
-    fly_at(page, "120,5", reference, home)
-    more = "" if home is None else f"&home-altitude={home}"
-    page.wait_for_url(f"**/#*&altitude=120.5&altitude-reference={reference}{more}")
-    again = opened(page.url.removeprefix(address))
-    assert scene(again) == scene(page)
-    flown, _ = saved(again, "waypoints", tmp_path)
-    assert flown == saved(page, "waypoints", tmp_path)[0]
-    assert flown.items[0].altitude_m == 120.5
+    for reference, home in (("msl", None), ("home", "450"), ("ground", "12.5")):
+        fly_at(page, "120,5", reference, home)
+        more = "" if home is None else f"&home-altitude={home}"
+        page.wait_for_url(f"**/#*&altitude=120.5&altitude-reference={reference}{more}")
+        again = opened(page.url.removeprefix(address))
+        assert scene(again) == scene(page)
+        flown, _ = saved(again, "waypoints", tmp_path)
+        assert flown == saved(page, "waypoints", tmp_path)[0]
+        assert flown.items[0].altitude_m == 120.5
 
 
-def test_an_old_link_opens_without_an_altitude(opened):
+def test_an_old_link_opens_without_an_altitude_and_each_takes_the_place_of_the_last(opened):
     page = opened(OLD_LINK)
     assert scene(page)["origin"] == {"latitude_deg": 47.1, "longitude_deg": 8.2}
     assert asked_for(page, "plan") == ["altitude-reference", "altitude"]
-
-
-def test_a_link_with_an_unknown_reference_gets_a_sentence(opened):
-    page = opened(f"{OLD_LINK}&altitude=120&altitude-reference=sea")
+    reopen(page, f"{OLD_LINK}&altitude=120&altitude-reference=home")
+    expect(page.locator("#altitude")).to_have_value("120")
+    assert reference_of(page) == "home"
+    reopen(page, OLD_LINK)
+    expect(page.locator("#altitude")).to_have_value("")
+    assert reference_of(page) is None
+    reopen(page, f"{OLD_LINK}&altitude=120&altitude-reference=sea")
     expected = "The link's altitude-reference is sea: it must be msl, home or ground."
     assert page.locator("#message").inner_text() == expected
-
-
-def test_a_link_opened_on_the_page_takes_the_place_of_the_altitude(page):
-    located(page)
-    fly_at(page, "620", "msl")
-    page.evaluate("link => (location.hash = link)", f"{OLD_LINK}&altitude=120&altitude-reference=home")
-    expect(page.locator("#altitude")).to_have_value("120")
-    settle(page)
-    assert reference_of(page) == "home"
-    page.evaluate("link => (location.hash = link)", OLD_LINK)
-    expect(page.locator("#altitude")).to_have_value("")
-    settle(page)
-    assert reference_of(page) is None
-
-
-def test_a_preset_keeps_place_and_altitude(page, tmp_path):
-    located(page)
-    fly_at(page, "620", "msl")
-    page.get_by_role("button", name="Far away").click()
-    settle(page)
-    flown, _ = saved(page, "plan", tmp_path)
-    assert flown.items[0].altitude_m == 620.0
 
 
 def test_a_link_opened_while_the_address_waits_to_be_written_is_not_lost(page):

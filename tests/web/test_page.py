@@ -26,6 +26,7 @@ from web.browsing import (
     located,
     middle,
     press,
+    reopen,
     scene,
     settle,
     time_text,
@@ -57,6 +58,11 @@ def test_every_preset_shows_what_the_library_says(page):
         assert page.locator("#timeline .switchline").count() == len(maneuver.segments) - 1
         held = sum(residual.verdict == "holds" for residual in loiter.verify.certify(maneuver).residuals)
         assert page.locator("#verdict").inner_text().startswith(f"All {held} conditions hold.")
+        for example in EXAMPLES:
+            if name == f"Paper, {example.name}":
+                assert page.locator("#time").inner_text() == f"{example.time:.3f} s"
+                assert page.locator("#candidates .best .word").all_inner_texts() == example.words
+    assert {f"Paper, {example.name}" for example in EXAMPLES} <= set(names)
 
 
 PROVED, NECESSARY = (
@@ -65,33 +71,25 @@ PROVED, NECESSARY = (
 )
 
 
-@pytest.mark.parametrize(
-    ("link", "says"),
-    [
-        ("#pose=4,4,90&orbit=0,0,1&airspeed=1&turn-radius=1", PROVED),
-        # The circle of the turn radius of a bank limit: 47.18 m.
-        ("#pose=90,60,100&orbit=0,0,47.18430393502829&airspeed=18&bank=35", PROVED),
-        ("#pose=90,60,100&orbit=0,0,47.2&airspeed=18&bank=35", PROVED),
-        ("#pose=90,60,100&orbit=0,0,80&airspeed=18&bank=35", PROVED),
-        ("#pose=4,4,90&orbit=0,0,1&airspeed=1&turn-radius=1&tolerance=0.01", NECESSARY),
-        ("#pose=-400,120,90&orbit=0,0,120&airspeed=18&bank=35&wind=8,250", NECESSARY),
-        ("#pose=-400,120,90&orbit=0,0,120&airspeed=18&bank=35&orbit-velocity=3,0", NECESSARY),
-    ],
-    ids=["paper", "turn radius", "slightly wider", "wider", "tolerance", "wind", "moving circle"],
-)
-def test_a_proof_is_claimed_only_where_there_is_one(opened, link, says):
-    page = opened(link)
-    verdict = page.locator("#verdict").inner_text()
-    assert [claim for claim in (PROVED, NECESSARY) if claim in verdict] == [says]
-    everything = page.locator("body").inner_text().replace(verdict, "").lower()
-    assert [word for word in ("proof", "prove", "closed form") if word in everything] == []
+CLAIMED = {
+    "#pose=4,4,90&orbit=0,0,1&airspeed=1&turn-radius=1": PROVED,
+    "#pose=4,4,90&orbit=0,0,1&airspeed=1&turn-radius=1&tolerance=0.01": NECESSARY,
+    # The circle of the turn radius of a bank limit: 47.18 m.
+    "#pose=90,60,100&orbit=0,0,47.18430393502829&airspeed=18&bank=35": PROVED,
+    "#pose=-400,120,90&orbit=0,0,120&airspeed=18&bank=35&wind=8,250": NECESSARY,
+    "#pose=90,60,100&orbit=0,0,47.2&airspeed=18&bank=35": PROVED,
+    "#pose=-400,120,90&orbit=0,0,120&airspeed=18&bank=35&orbit-velocity=3,0": NECESSARY,
+    "#pose=90,60,100&orbit=0,0,80&airspeed=18&bank=35": PROVED,
+}
 
 
-def test_the_papers_examples_are_there(page):
-    for example in EXAMPLES:
-        press(page, f"Paper, {example.name}")
-        assert page.locator("#time").inner_text() == f"{example.time:.3f} s"
-        assert page.locator("#candidates .best .word").all_inner_texts() == example.words
+def test_a_proof_is_claimed_only_where_there_is_one(page):
+    for link, says in CLAIMED.items():
+        reopen(page, link)
+        verdict = page.locator("#verdict").inner_text()
+        assert [claim for claim in (PROVED, NECESSARY) if claim in verdict] == [says], link
+        everything = page.locator("body").inner_text().replace(verdict, "").lower()
+        assert [word for word in ("proof", "prove", "closed form") if word in everything] == []
 
 
 def test_every_candidate_is_listed_with_what_it_loses(page):
@@ -122,15 +120,12 @@ def test_pointing_at_a_losing_path_tells_it(page):
 # Handles
 
 
-def test_a_handle_dragged_changes_the_path_to_the_librarys(page):
+def test_each_handle_and_the_wind_dragged_change_the_path_to_the_librarys(page):
     for handle, (part, names) in HANDLES.items():
         before = scene(page)
         drag(page, handle, -31, 22)
         assert changed(before, scene(page)) == {part: names}
         assert_shows_the_plan(page)
-
-
-def test_the_wind_is_dragged_too(page):
     drag(page, "wind", 7, 3)
     wind = scene(page)["wind"]
     assert wind["speed_m_s"] > 1.0
@@ -176,7 +171,9 @@ def test_the_arrow_keys_move_each_handle(page):
 
 
 def test_in_wind_a_drag_shows_every_candidate_too_and_asks_nobody(page):
+    assert page.locator("#path small").count() == 0
     press(page, "In wind")
+    assert page.locator("#path small").inner_text() == "through the air"
     asked = len(page.watched.requests)
     x, y = middle(page, "aircraft")
     page.mouse.move(x, y)
@@ -232,7 +229,7 @@ def test_numbers_typed_are_asked_for(page):
     assert assert_shows_the_plan(page).turn == "ccw"
 
 
-def test_a_limit_of_another_kind_keeps_the_turn_radius(page):
+def test_a_limit_of_another_kind_keeps_the_turn_radius_and_units_are_shown_and_typed(page):
     radius = values(scene(page))[2].turn_radius_m
     for kind in ("min_turn_radius_m", "max_turn_rate_deg_s", "max_bank_deg"):
         page.locator("#limit-kind").select_option(kind)
@@ -240,9 +237,7 @@ def test_a_limit_of_another_kind_keeps_the_turn_radius(page):
         assert list(scene(page)["aircraft"]) == ["airspeed_m_s", kind]
         # What is typed in is rounded to a thousandth.
         assert values(scene(page))[2].turn_radius_m == pytest.approx(radius, rel=5e-3)
-
-
-def test_feet_and_knots_are_shown_and_typed(page):
+    # Feet and knots are shown and typed.
     page.locator("#units").select_option("aviation")
     assert float(page.locator("#airspeed").input_value()) == pytest.approx(18.0 * 3600 / 1852, rel=1e-6)
     page.locator("#circle-radius").fill("300")
@@ -250,12 +245,6 @@ def test_feet_and_knots_are_shown_and_typed(page):
     assert scene(page)["orbit"]["radius_m"] == pytest.approx(300 * 0.3048)
     assert page.locator("#path").inner_text().endswith("ft")
     assert_shows_the_plan(page)
-
-
-def test_in_wind_the_path_is_told_to_be_through_the_air(page):
-    assert page.locator("#path small").count() == 0
-    press(page, "In wind")
-    assert page.locator("#path small").inner_text() == "through the air"
 
 
 def test_the_view_pans_and_zooms_and_comes_back(page):
@@ -297,14 +286,10 @@ def test_a_spoilt_link_gets_a_sentence_and_the_first_scene(opened):
     assert_shows_the_plan(page)
 
 
-def test_a_link_whose_view_has_no_width_is_told_so(opened):
-    page = opened("#pose=90,60,100&orbit=0,0,80&airspeed=18&bank=35&view=0,0,0")
+def test_a_link_whose_view_has_no_width_is_told_so_and_a_wind_of_no_speed_is_none(opened):
+    page = opened("#pose=90,60,100&orbit=0,0,80&airspeed=18&bank=35&wind=0,270&view=0,0,0")
     assert page.locator("#message").inner_text() == "The link's view is 0 m wide: it must be wider than 0 m."
     assert_shows_the_plan(page)
-
-
-def test_a_wind_of_no_speed_is_none(opened):
-    page = opened("#pose=90,60,100&orbit=0,0,80&airspeed=18&bank=35&wind=0,270")
     assert scene(page)["wind"] is None
     assert not page.locator("#map .drifting").is_visible()
 
@@ -462,8 +447,11 @@ def test_links_from_dragged_and_converted_numbers_are_short_and_give_the_same_pl
 # For everyone
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-@pytest.mark.parametrize("device", [{}, TABLET, PHONE], ids=["1440", "820", "390"])
+@pytest.mark.parametrize(
+    ("scheme", "device"),
+    [("light", {}), ("dark", {}), ("light", TABLET), ("dark", PHONE)],
+    ids=["light, 1440", "dark, 1440", "light, 820", "dark, 390"],
+)
 def test_axe_finds_nothing_serious(opened, scheme, device):
     page = opened(color_scheme=scheme, **device)
     assert page.evaluate("document.documentElement.dataset.theme") == scheme

@@ -1,7 +1,6 @@
 """Places on Earth: coordinates as they are typed and pasted, and the local plane, which is that of the library."""
 
 import json
-import subprocess
 from itertools import product
 
 import numpy as np
@@ -9,17 +8,7 @@ import pytest
 from playwright.sync_api import expect
 
 from loiter.geo import LocalFrame
-from loiter.web.app import STATIC
-from web.browsing import NODE, assert_shows_the_plan, changed, located, scene, settle
-
-
-def run(module, expression):
-    """The value of an expression over the functions of a module of the page, as JSON."""
-    url = json.dumps((STATIC / module).as_uri())
-    code = f"import({url}).then((module) => console.log(JSON.stringify({expression})))"
-    done = subprocess.run([NODE, "-e", code], capture_output=True, text=True, check=True)
-    return json.loads(done.stdout)
-
+from web.browsing import assert_shows_the_plan, changed, in_module, located, scene, settle
 
 # Coordinates
 
@@ -63,7 +52,7 @@ NO_PAIRS = [
 
 
 def test_pairs_are_read_in_every_notation():
-    read = run("fields/coordinates.js", f"{json.dumps(list(PAIRS))}.map((text) => module.parsePair(text))")
+    read = in_module("fields/coordinates.js", f"{json.dumps(list(PAIRS))}.map((text) => module.parsePair(text))")
     found = {
         text: pair and (pair["latitude_deg"], pair["longitude_deg"]) for text, pair in zip(PAIRS, read, strict=True)
     }
@@ -71,7 +60,7 @@ def test_pairs_are_read_in_every_notation():
 
 
 def test_what_is_no_pair_is_none():
-    read = run("fields/coordinates.js", f"{json.dumps(NO_PAIRS)}.map((text) => module.parsePair(text))")
+    read = in_module("fields/coordinates.js", f"{json.dumps(NO_PAIRS)}.map((text) => module.parsePair(text))")
     assert read == [None] * len(NO_PAIRS)
 
 
@@ -86,10 +75,10 @@ def test_the_plane_is_that_of_the_library(origin, reach, off):
     latitude, longitude = frame.to_geodetic(*metres.T)
     places = [{"latitude_deg": a, "longitude_deg": b} for a, b in zip(latitude, longitude, strict=True)]
     start = json.dumps({"latitude_deg": origin[0], "longitude_deg": origin[1]})
-    local = run("shared/earth.js", f"{json.dumps(places)}.map((place) => module.toLocal({start}, place))")
+    local = in_module("shared/earth.js", f"{json.dumps(places)}.map((place) => module.toLocal({start}, place))")
     assert np.abs(np.array(local) - metres).max() < off
     code = f"{json.dumps(metres.tolist())}.map(([e, n]) => module.toLocal({start}, module.toPlace({start}, e, n)))"
-    assert np.abs(np.array(run("shared/earth.js", code)) - metres).max() < 1e-3
+    assert np.abs(np.array(in_module("shared/earth.js", code)) - metres).max() < 1e-3
 
 
 # Fields

@@ -1,7 +1,6 @@
 """The race of guidance laws: flown as `loiter.guidance.trials` flies them, and by the page's engine as by Python."""
 
 import json
-import subprocess
 
 import pytest
 
@@ -10,8 +9,7 @@ from loiter.guidance.simulators.kinematic import Kinematic
 from loiter.guidance.trials.flight import fly
 from loiter.planning.problem import Problem
 from loiter.web.answers.race import STEP, laws, race
-from web.browsing import NODE
-from web.engine import STATIC
+from web.browsing import in_module
 
 UAV = loiter.Aircraft(18.0, max_bank_deg=35.0)
 SCENES = {
@@ -67,10 +65,8 @@ def test_the_page_flies_the_same_race():
                 "wind": {"speed_m_s": wind[0], "from_deg": wind[1]},
             }
         )
-    url = json.dumps((STATIC / "kernel" / "engine.js").as_uri())
-    code = f"import({url}).then(({{ race }}) => console.log(JSON.stringify({json.dumps(asked)}.map(race))))"
-    done = subprocess.run([NODE, "-e", code], capture_output=True, text=True, check=True)
-    for name, flown in zip(SCENES, json.loads(done.stdout), strict=True):
+    found = in_module("kernel/engine.js", f"{json.dumps(asked)}.map(module.race)")
+    for name, flown in zip(SCENES, found, strict=True):
         for page, library in zip(flown, race(problem_of(name)), strict=True):
             assert (page["law"], page["joined_s"]) == (library["law"], pytest.approx(library["joined_s"], abs=CLOSE))
             for column, values in library["track"].items():
