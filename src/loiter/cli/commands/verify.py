@@ -53,7 +53,16 @@ class Findings(NamedTuple):
 
 
 # Decimals of the numbers that are not tiny, by key; the others have an exponent.
-DECIMALS = {"later_by_s": 2, "at_most_s": 2, "at_least_s": 2, "spacing": 3, "mean_difference": 3, "share_of_allowed": 2}
+DECIMALS = {
+    "later_by_s": 2,
+    "at_most_s": 2,
+    "at_least_s": 2,
+    "gap_s": 3,
+    "gap_at_most_s": 3,
+    "spacing": 3,
+    "mean_difference": 3,
+    "share_of_allowed": 2,
+}
 
 
 def _shown(key: str, value: str | int | float | bool) -> str:
@@ -91,8 +100,8 @@ def verify(
     (mpmath). collocation: time-optimal control as a nonlinear program (CasADi, IPOPT), for the paper's examples and
     random problems. reachability: the Hamilton-Jacobi equation on a grid of the reduced plane (hj-reachability). wind:
     a search over points of joining and times in wind. rolling: what an aircraft can reach whose bank changes at a
-    limited rate, wings level at first; no entry may be sooner than its plan. These two are slow, and run only where
-    they are named.
+    limited rate, wings level at first, between a path that it can fly and a proved lower bound. These two are slow,
+    and run only where they are named.
     """
     names = witness or DEFAULTS
     # Each method raises where its packages are not installed, before the first one starts.
@@ -226,11 +235,14 @@ def _rolling(states: int, cases: int, seed: int) -> Callable[[], Findings]:
             here = [bound for bound in found if bound.problem.place == place]
             later_s = sorted(bound.later_s for bound in here)
             later: Row = {"later_by_s": later_s[len(later_s) // 2], "at_most_s": later_s[-1], "at_least_s": later_s[0]}
+            gaps_s = sorted(bound.gap_s for bound in here)
+            gap: Row = {"gap_s": gaps_s[len(gaps_s) // 2], "gap_at_most_s": gaps_s[-1]}
             misses: Row = {"missed": max(bound.missed for bound in here)}
-            rows.append({"roll_rate": place, "entries": len(here), **later, **misses})
+            rows.append({"roll_rate": place, "entries": len(here), **later, **gap, **misses})
         note = (
             f"How much later than the plan an aircraft of {AIRCRAFT.airspeed_m_s:g} m/s can join with the bank of the "
-            "hold, median and extremes; missed: by how much the path misses when another integrator flies it."
+            "hold, median and extremes; gap: how much less time may be possible (docs/rolling.md); missed: "
+            "by how much the path misses when another integrator flies it."
         )
         return Findings(rows, note, all(bound.passed for bound in found))
 

@@ -2,8 +2,7 @@
 
 The vehicle of the theory banks at once. Here the bank is a state: it begins level, changes at a limited rate, and ends
 as that of the hold. No finite synthesis of this problem is known. Every solution of the program is a
-path that such an aircraft can fly, so its time bounds the least time from above; the least time of the vehicle of the
-theory, which may do more, bounds it from below.
+path that such an aircraft can fly, so its time bounds the least time from above; `rolling_lower` bounds it from below.
 
 Lengths are in turn radii at the bank limit, times in turn radii over airspeed, angles in radians. The bank is linear
 on each interval and positive to the left; the heading and the position follow by Gauss's collocation of order six.
