@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
-from math import atan, cos, hypot, log, radians, sin, tan
+from math import atan, cos, hypot, inf, log, radians, sin, tan
 from typing import NamedTuple
 
 import numpy as np
@@ -45,9 +45,9 @@ EVEN = 1e-6
 class RollingBound:
     """The least time of one entry between two bounds, seconds: `at_least_s` is proved, in `reached_s` it can be flown.
 
-    `planned_s` is the duration of the plan, which banks at once. `missed` is by how much the path misses the circle,
-    its tangent, the bank of the hold or the limits of its roll when it is flown by another integrator: turn radii,
-    radians.
+    `planned_s` is the duration of the plan, which banks at once, and `path` the one that can be flown. `missed` is by
+    how much it misses the circle, its tangent, the bank of the hold or the limits of its roll when it is flown by
+    another integrator: turn radii, radians.
     """
 
     problem: CheckProblem
@@ -56,6 +56,7 @@ class RollingBound:
     at_least_s: float
     reached_s: float
     missed: float
+    path: RollingPath
 
     @property
     def later_s(self) -> float:
@@ -83,16 +84,27 @@ def compare_with_rolling(cases: int, seed: int) -> Iterator[RollingBound]:
         raise InvalidArgument("cases", f"is {cases}: it must be at least 1")
     check_installed()
     entries = [trial.ideal for trial in trials(cases, seed, AIRCRAFT)]
-    return (rolling_bound(entry, rate) for rate in RATES_DEG_S for entry in entries)
+    return (bound for entry in entries for bound in _bounds(entry))
 
 
-def rolling_bound(entry: Maneuver, rate_deg_s: float) -> RollingBound:
-    """The bounds of one entry in still air, at one roll rate."""
+def _bounds(entry: Maneuver) -> Iterator[RollingBound]:
+    """The bounds of one entry at each roll rate: a path of a slower roll is one of a quicker roll too."""
+    slower: RollingPath | None = None
+    for rate in RATES_DEG_S:
+        bound = rolling_bound(entry, rate, slower)
+        slower = bound.path
+        yield bound
+
+
+def rolling_bound(entry: Maneuver, rate_deg_s: float, known: RollingPath | None = None) -> RollingBound:
+    """The bounds of one entry in still air, at one roll rate; `known` is a path that can be flown."""
     start, circle, roll, unit_s = scaled(entry, Roll(0.0, rate_deg_s))
     words, least = guesses(entry), lower_bound(start, circle, roll)
-    path = fastest_roll(start, circle, roll, words[:FEW_GUESSES])
-    if path.time > least + NEAR:
-        path = fastest_roll(start, circle, roll, words)
+    paths = [known] if known else []
+    for count in (FEW_GUESSES, GUESSES):
+        if min((path.time for path in paths), default=inf) > least + NEAR:
+            paths.append(fastest_roll(start, circle, roll, words[:count]))
+    path = min(paths, key=lambda path: path.time)
     place = f"{rate_deg_s:g} deg/s"
     problem = CheckProblem(place, entry.start, entry.orbit, entry.aircraft)
     return RollingBound(
@@ -102,6 +114,7 @@ def rolling_bound(entry: Maneuver, rate_deg_s: float) -> RollingBound:
         at_least_s=unit_s * least,
         reached_s=unit_s * path.time,
         missed=missed(start, circle, roll, path),
+        path=path,
     )
 
 

@@ -117,7 +117,9 @@ def _time_between(first: Reach, last: Reach) -> float:
 
     def remaining(x: Array, y: Array) -> Array:
         passed = np.where(has_passed(-x, y, radii), 0.0, inf)
-        return np.max(begun - np.concatenate([*both(-x, y), passed], axis=1), axis=1, keepdims=True)
+        times: Array = begun - np.concatenate([*both(-x, y), passed], axis=1)
+        most: Array = times.max(axis=1, keepdims=True)
+        return most
 
     return float(least_values(last, remaining)[0])
 
@@ -148,7 +150,7 @@ def _turn(angle: Array) -> Array:
 
 def least_values(reach: Reach, values: Values) -> Array:
     """Lower bounds of the least values over a set, by branch and bound."""
-    cells, done, best = _whole(reach), inf, inf
+    cells, done, best = _whole(reach), np.array([inf]), np.array([inf])
     for cut in range(CUTS):
         states = _states(reach, cells)
         x, y, late = before(states)
@@ -191,7 +193,7 @@ def _whole(reach: Reach) -> Cells:
     """A set as cells."""
     end = np.array(reach.time)
     ends = [float(headings(reach, np.array(back), end)) for back in (0.0, reach.time)]
-    turned, free = np.linspace(*ends, FIRST_CELLS + 1), np.full(FIRST_CELLS, inf)
+    turned, free = np.linspace(ends[0], ends[1], FIRST_CELLS + 1), np.full(FIRST_CELLS, inf)
     return Cells(np.stack([turned[:-1], turned[1:]]), np.stack([-free, free]))
 
 
@@ -216,7 +218,8 @@ def _states(reach: Reach, cells: Cells) -> States:
     second = half * (half_x + half_y + half * np.sqrt(2.0 * p[1]))
     wide_x = np.abs(c) * half_x + np.abs(s) * half_y + half * np.abs(middle_y) + second
     wide_y = np.abs(c) * half_y + np.abs(s) * half_x + half * np.abs(middle_x) + second
-    return States(*(np.stack([m - w, m + w]) for m, w in ((middle_x, wide_x), (middle_y, wide_y))), p)
+    states_x, states_y = (np.stack([m - w, m + w]) for m, w in ((middle_x, wide_x), (middle_y, wide_y)))
+    return States(states_x, states_y, p)
 
 
 def _middle(bounds: Array) -> tuple[Array, Array]:
