@@ -10,6 +10,7 @@ from loiter import Orbit, Pose
 from loiter.cli.app import main
 from loiter.evidence.checks import oracle_check, rolling_check, wind_scan_check
 from loiter.evidence.checks.oracle_check import PLACES
+from loiter.evidence.checks.rolling import BankProfile, RollingPath
 
 EIGHT = ["verify", "--witness", "search", "--states", "8", "--seed", "1"]
 
@@ -112,7 +113,15 @@ def rolling_bounds(monkeypatch, later_s):
         assert (cases, seed) == (1, 3)
         for rate in rolling_check.RATES_DEG_S:
             problem = oracle_check.CheckProblem(f"{rate:g} deg/s", *scene)
-            yield rolling_check.RollingBound(problem, rate, 20.0, 20.0 + later_s, 0.0)
+            yield rolling_check.RollingBound(
+                problem=problem,
+                rate_deg_s=rate,
+                planned_s=20.0,
+                at_least_s=20.0,
+                reached_s=20.0 + later_s,
+                missed=0.0,
+                path=RollingPath(8.0, BankProfile((), ())),
+            )
 
     monkeypatch.setattr(rolling_check, "compare_with_rolling", bounds)
 

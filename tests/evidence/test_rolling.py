@@ -1,5 +1,6 @@
 """What an aircraft with a limited roll rate can reach, as a nonlinear program."""
 
+from dataclasses import replace
 from math import atan, cos, pi, sin, tan
 
 import pytest
@@ -19,6 +20,7 @@ from loiter.evidence.checks.rolling_check import (
     scaled,
     settling_bound_s,
 )
+from loiter.evidence.checks.rolling_lower import lower_bound
 from loiter.guidance.trials.campaign import trials
 from loiter.guidance.vehicle.circle import Band
 from loiter.guidance.vehicle.rolling import Roll
@@ -27,14 +29,38 @@ from loiter.guidance.vehicle.rolling import Roll
 ENTRY = plan(Pose(-400.0, 120.0, 90.0), Orbit(0.0, 0.0, 120.0), Aircraft(22.0, max_bank_deg=45.0))
 
 
-def test_no_aircraft_is_sooner_than_the_plan_and_each_path_can_be_flown():
-    bounds = list(compare_with_rolling(1, seed=3))
+@pytest.fixture(scope="module")
+def bounds():
+    return list(compare_with_rolling(1, seed=3))
+
+
+def test_no_aircraft_is_sooner_than_is_proved_and_each_path_can_be_flown(bounds):
     # The starts are those of the campaigns.
     assert {bound.problem.pose for bound in bounds} == {trials(1, 3, AIRCRAFT)[0].ideal.start}
     assert [bound.rate_deg_s for bound in bounds] == list(RATES_DEG_S)
     assert [bound.passed for bound in bounds] == [True] * 4
     # A path of a slower roll is one of a quicker roll too.
     assert [bound.reached_s for bound in bounds] == sorted((bound.reached_s for bound in bounds), reverse=True)
+
+
+def test_the_bounds_are_close(bounds):
+    """At 45 degrees a second 0.35 s are left: the circle is tight, and its sets are large."""
+    for bound, closely_s in zip(bounds, (0.4, 0.03, 0.03, 0.03), strict=True):
+        assert bound.planned_s + 0.3 < bound.at_least_s
+        assert bound.gap_s < closely_s
+
+
+def test_a_bound_that_is_too_large_is_refused(bounds):
+    """That of a roll which is a tenth slower."""
+    entry = trials(1, 3, AIRCRAFT)[0].ideal
+    for bound in bounds[1:]:
+        start, circle, slow, unit_s = scaled(entry, Roll(0.0, 0.9 * bound.rate_deg_s))
+        assert not replace(bound, at_least_s=unit_s * lower_bound(start, circle, slow)).passed
+
+
+def test_a_known_path_is_taken_where_no_faster_one_is_found(bounds):
+    slow = bounds[0].path._replace(time=0.0)
+    assert rolling_bound(trials(1, 3, AIRCRAFT)[0].ideal, 150.0, slow).path == slow
 
 
 def test_the_quicker_the_roll_the_nearer_the_plan():

@@ -1,18 +1,14 @@
-"""A time that no aircraft beats whose bank changes at a limited rate."""
+"""A time that no aircraft beats whose bank changes at a limited rate: the lemmas. test_rolling.py has the bounds."""
 
-from dataclasses import replace
 from math import pi
 
 import numpy as np
-import pytest
 
 from loiter.evidence.checks import rolling_lower
 from loiter.evidence.checks.oracle import Planar
 from loiter.evidence.checks.rolling import BankProfile, Rolling
-from loiter.evidence.checks.rolling_check import AIRCRAFT, flown_end, rolling_bound, scaled
-from loiter.evidence.checks.rolling_lower import Reach, States, before, has_passed, lower_bound, passing_time
-from loiter.guidance.trials.campaign import trials
-from loiter.guidance.vehicle.rolling import Roll
+from loiter.evidence.checks.rolling_check import flown_end
+from loiter.evidence.checks.rolling_lower import Reach, States, before, has_passed, passing_time
 
 ROLL = Rolling(pi / 4, 2.5)
 
@@ -96,23 +92,3 @@ def test_nothing_passes_the_centre_sooner_than_is_said():
     assert np.all(least[passed] <= time[passed] + 1e-3)
     # Some of these paths are the fastest, which the bound without one of its words would exceed.
     assert np.sum(time[passed] - least[passed] < 2.0 * step) > 30
-
-
-ENTRY, RATE_DEG_S = trials(1, 3, AIRCRAFT)[0].ideal, 60.0
-
-
-@pytest.fixture(scope="module")
-def bound():
-    return rolling_bound(ENTRY, RATE_DEG_S)
-
-
-def test_the_bounds_are_close(bound):
-    assert bound.passed
-    assert bound.planned_s + 1.0 < bound.at_least_s
-    assert bound.gap_s < 0.02
-
-
-def test_a_bound_that_is_too_large_is_refused(bound):
-    """That of a roll which is a tenth slower."""
-    start, circle, roll, unit_s = scaled(ENTRY, Roll(0.0, 0.9 * RATE_DEG_S))
-    assert not replace(bound, at_least_s=unit_s * lower_bound(start, circle, roll)).passed
