@@ -138,7 +138,7 @@ int loiter_law_begin(loiter_law *law, const loiter_law_config *c) {
     if (status != LOITER_OK) {
         return status;
     }
-    const RollValues roll = {c->roll_time_s, c->roll_rate_deg_s};
+    const RollValues roll = {c->roll_time_s, c->roll_rate_deg_s, REAL(0.0)};
     const VehicleEstimates declared = {roll,
                                        c->delay_s,
                                        REAL(1.0),
@@ -168,7 +168,7 @@ int loiter_law_begin(loiter_law *law, const loiter_law_config *c) {
                                    REAL(0.0),
                                    max_real(@COVERED@, c->delay_s),
                                    c->search_steps};
-    law->vehicle = MAKE(VehicleModel){0, REAL(0.0), declared};
+    law->vehicle = MAKE(VehicleModel){0, REAL(0.0), REAL(0.0), declared};
     law->begin_us = 0;
     law->memory = first_memory(&law->rings, &law->settings, &law->vehicle);
     return LOITER_OK;

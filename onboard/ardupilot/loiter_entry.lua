@@ -2,7 +2,7 @@
 --
 -- Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
 --
--- SHA-256 of the source: 0a4a61e64f2e841c67bd36c3770fa71c8968b5ae59d50f30162d537652899bc9
+-- SHA-256 of the source: 36ba5c4202a9fa99cd848750f19a6ee740e7fdb9647cb1ecc93782ca2c06c37a
 --
 -- When a switch asks for it, this script flies a plane onto the holding circle around its present target in least
 -- time, and then leaves the circle to ArduPlane: loiter_entry.md. It works by GUIDED_CHANGE_HEADING in GUIDED: the target
@@ -28,12 +28,6 @@ local DELAY_S, ROLL_TIME_S, ROLL_RATE_DEG_S = 0.2, 0.1, 90.0
 -- number, are forgotten over the third, seconds; the declared delay counts as this much of them for each second squared
 -- by which another one is off.
 local MOST_STEPS, LARGEST_ERROR_DEG2, DELAY_MEMORY_S, DELAY_WEIGHT = 10, 100.0, 20.0, 2000.0
-
--- The first roll of a flight shows the delay where the bank has stayed within this many degrees for so many steps before.
-local STEADY_DEG = 5.0
-
--- Until there is a plan the bank of the beginning is kept, for so many milliseconds at most.
-local FIRST_PLAN_MS = 500
 
 -- The largest bank ever commanded, and how far below the limit of the autopilot it stays, degrees.
 local LARGEST_BANK_DEG, BELOW_LIMIT_DEG = 60.0, 0.5
@@ -175,7 +169,7 @@ local function appended(ring, last)
     changed[#ring] = last
     return changed
 end
-law.NO_LIMITS = {revision = -1, wind_differs = false, wind_east_m_s = 0.0, wind_north_m_s = 0.0, roll_time_s = 0.0, roll_rate_deg_s = 0.0, limit_deg = 0.0, turns = {airspeed_m_s = 1.0, tightest_m = 1.0, planned_m = 1.0}, hold_deg = 0.0, hold_half_deg = 0, planned_half_deg = 0, lead_s = 0.0, reversal_s2 = 0.0, reversal_m = 0.0, lag_s = 0.0}
+law.NO_LIMITS = {revision = -1, wind_differs = false, wind_east_m_s = 0.0, wind_north_m_s = 0.0, roll = {time_s = 0.0, rate_deg_s = 0.0, lag_s = 0.0}, limit_deg = 0.0, turns = {airspeed_m_s = 1.0, tightest_m = 1.0, planned_m = 1.0}, hold_deg = 0.0, hold_half_deg = 0, planned_half_deg = 0, lead_s = 0.0, reversal_s2 = 0.0, reversal_m = 0.0, lag_s = 0.0}
 
 -- The wind is planned as estimated, not as declared, where they differ by the first share of the airspeed, until
 -- they differ by less than the second.
@@ -201,15 +195,18 @@ law.NO_LIMITS = {revision = -1, wind_differs = false, wind_east_m_s = 0.0, wind_
 -- QUICKEST_S = 0.15
 -- COMMAND_GAIN = 2.5
 
--- A smaller change of bank, degrees, takes effect like an infinitely small one where only the last range is passed.
+-- A smaller change of bank, degrees, takes effect like an infinitely small one where neither it nor its rate is
+-- limited.
 -- SMALL_CHANGE_DEG = 5.0
 
--- Gauss-Legendre points and weights on [0, 1], and Gauss-Laguerre points x, exp(-x) and weights.
-law.LEGENDRE_POINTS = {0.1127016653792583, 0.5, 0.8872983346207417}
-law.LEGENDRE_WEIGHTS = {0.2777777777777778, 0.4444444444444444, 0.2777777777777778}
-law.LAGUERRE_POINTS = {0.4157745567834791, 2.294280360279042, 6.2899450829374794}
-law.LAGUERRE_SHARES = {0.6598290076917097, 0.10083393126672065, 0.0018548618076203868}
-law.LAGUERRE_WEIGHTS = {0.711093009929173, 0.27851773356924087, 0.010389256501586137}
+-- The damping of a bank whose rate has a lag, under these commands.
+-- DAMPING = 0.8
+
+-- The largest number of steps in which a change of bank is flown.
+-- STEPS = 24
+
+-- These last for the change at the limit of the roll rate, and for so many time constants more.
+-- SETTLING = 1.5
 
 -- The reserve grows by this share for each radian that the aircraft could turn during the delay of its roll: the
 -- slower the roll, the farther an error of its estimate takes the aircraft off the last arc.
@@ -238,9 +235,9 @@ law.NO_PLAN = {route = {side = 0, current = {u = -2, x = 0.0, y = 0.0, c = 1.0, 
 
 -- The control of a piece that the word does not have.
 -- ABSENT = -2
-law.NO_LEADS = {bank = -1000000000, current = 0, next = 0, last = 0, current_s = 0.0, next_s = 0.0, last_s = 0.0}
+law.NO_LEADS = {bank = -1000000000, rate = 0, current = 0, next = 0, last = 0, current_s = 0.0, more = 0.0, next_s = 0.0, last_s = 0.0}
 law.NO_RESPONSE = {state = {time_s = 0.0, x = 0.0, y = 0.0, vx = 0.0, vy = 0.0, hx = 0.0, hy = 0.0}, offset = {crosstrack = 0.0, course_error = 0.0, path_rate = 0.0}, early_s = 0.0}
-law.NO_ENTRY_SEARCH = {aim = 0, state = {time_s = 0.0, x = 0.0, y = 0.0, vx = 0.0, vy = 0.0, hx = 0.0, hy = 0.0}, turns = {airspeed_m_s = 1.0, tightest_m = 1.0, planned_m = 1.0}, wind_east_m_s = 0.0, wind_north_m_s = 0.0, radius_m = 1.0, wide_m = 1.0, side = 0, reversing = false, is_second = false, is_begun = false, in_air = {stage = 0, sides = 0, side = 1, scene = {x = 0.0, y = 0.0, c = 1.0, s = 0.0, R = 1.0, wx = 0.0, wy = 0.0, arc_tolerance = 0.0}, best = {phase = 0.0, side = 0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}}, beside = {entry = {side = 0, word = 0, t1 = huge, t2 = 0.0, t3 = 0.0}, phase = 0.0, miss = huge}, visit = {number = 0, level = 0, words = 63}, before = {number = -2, point = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}}, leaves = {first = 0, second = 0, third = 0, fourth = 0}, others = {first = 0, second = 0, third = 0, fourth = 0}, corner = {phase = 0.0, u = 0, t1 = 0.0, t2 = 0.0}, compared = huge, visits = 0, refinement = {stage = 0, side = 0, width = 0.0, here = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}, other = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}, last = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}, words = 0, bisect = false, steps = 0, enclosures = 0}, cell = {words = 0, earliest = 0.0, tolerance = 0.0}, left = 0, entry = {status = 12, side = 0, word = 0, t1 = (0.0 / 0.0), t2 = (0.0 / 0.0), t3 = (0.0 / 0.0), azimuth = (0.0 / 0.0), miss = (0.0 / 0.0)}}}
+law.NO_ENTRY_SEARCH = {aim = 0, state = {time_s = 0.0, x = 0.0, y = 0.0, vx = 0.0, vy = 0.0, hx = 0.0, hy = 0.0}, turns = {airspeed_m_s = 1.0, tightest_m = 1.0, planned_m = 1.0}, wind_east_m_s = 0.0, wind_north_m_s = 0.0, radius_m = 1.0, wide_m = 1.0, side = 0, reversing = false, is_second = false, is_begun = false, in_air = {stage = 0, sides = 0, one = 1, scene = {x = 0.0, y = 0.0, c = 1.0, s = 0.0, R = 1.0, wx = 0.0, wy = 0.0, arc_tolerance = 0.0}, best = {phase = 0.0, side = 0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}}, beside = {entry = {side = 0, word = 0, t1 = huge, t2 = 0.0, t3 = 0.0}, phase = 0.0, miss = huge}, visit = {number = 0, level = 0, words = 63}, before = {number = -2, point = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}}, leaves = {first = 0, second = 0, third = 0, fourth = 0}, others = {first = 0, second = 0, third = 0, fourth = 0}, corner = {phase = 0.0, u = 0, t1 = 0.0, t2 = 0.0}, compared = huge, visits = 0, refinement = {stage = 0, side = 0, width = 0.0, here = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}, other = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}, last = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}, words = 0, bisect = false, steps = 0, enclosures = 0}, cell = {words = 0, earliest = 0.0, tolerance = 0.0}, left = 0, entry = {status = 12, side = 0, word = 0, t1 = (0.0 / 0.0), t2 = (0.0 / 0.0), t3 = (0.0 / 0.0), azimuth = (0.0 / 0.0), miss = (0.0 / 0.0)}}}
 
 -- What a command does: the control that it flies, +1 to the left; or one of these.
 -- NO_DATA = 3
@@ -308,6 +305,9 @@ law.NO_PIECE = {u = -2, x = 0.0, y = 0.0, c = 1.0, s = 0.0, end_x = 0.0, end_y =
 -- none.
 -- FIRST_TURN = 1
 
+-- Rates of the bank count in steps of so many half degrees per second.
+-- RATE_STEPS = 4.0
+
 -- Added to inner products, so that a zero vector gives the rotation by zero. It is negligible for vectors longer
 -- than 1e-37, and a product of three of them does not underflow.
 -- TINY = 1.4551915228366852e-11 -- 2.0 ** (-300)
@@ -338,7 +338,7 @@ law.NO_PIECE = {u = -2, x = 0.0, y = 0.0, c = 1.0, s = 0.0, end_x = 0.0, end_y =
 -- rounding error of c - end x itself is negligible.
 -- SMALLEST_SCALE = 1.4551915228366852e-11 -- 2.0 ** (-300)
 law.NO_ROTATION = {0.0, 1.0}
-law.NO_SEARCH = {stage = 0, sides = 0, side = 1, scene = {x = 0.0, y = 0.0, c = 1.0, s = 0.0, R = 1.0, wx = 0.0, wy = 0.0, arc_tolerance = 0.0}, best = {phase = 0.0, side = 0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}}, beside = {entry = {side = 0, word = 0, t1 = huge, t2 = 0.0, t3 = 0.0}, phase = 0.0, miss = huge}, visit = {number = 0, level = 0, words = 63}, before = {number = -2, point = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}}, leaves = {first = 0, second = 0, third = 0, fourth = 0}, others = {first = 0, second = 0, third = 0, fourth = 0}, corner = {phase = 0.0, u = 0, t1 = 0.0, t2 = 0.0}, compared = huge, visits = 0, refinement = {stage = 0, side = 0, width = 0.0, here = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}, other = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}, last = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}, words = 0, bisect = false, steps = 0, enclosures = 0}, cell = {words = 0, earliest = 0.0, tolerance = 0.0}, left = 0, entry = {status = 12, side = 0, word = 0, t1 = (0.0 / 0.0), t2 = (0.0 / 0.0), t3 = (0.0 / 0.0), azimuth = (0.0 / 0.0), miss = (0.0 / 0.0)}}
+law.NO_SEARCH = {stage = 0, sides = 0, one = 1, scene = {x = 0.0, y = 0.0, c = 1.0, s = 0.0, R = 1.0, wx = 0.0, wy = 0.0, arc_tolerance = 0.0}, best = {phase = 0.0, side = 0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}}, beside = {entry = {side = 0, word = 0, t1 = huge, t2 = 0.0, t3 = 0.0}, phase = 0.0, miss = huge}, visit = {number = 0, level = 0, words = 63}, before = {number = -2, point = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}}, leaves = {first = 0, second = 0, third = 0, fourth = 0}, others = {first = 0, second = 0, third = 0, fourth = 0}, corner = {phase = 0.0, u = 0, t1 = 0.0, t2 = 0.0}, compared = huge, visits = 0, refinement = {stage = 0, side = 0, width = 0.0, here = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}, other = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}, last = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}, words = 0, bisect = false, steps = 0, enclosures = 0}, cell = {words = 0, earliest = 0.0, tolerance = 0.0}, left = 0, entry = {status = 12, side = 0, word = 0, t1 = (0.0 / 0.0), t2 = (0.0 / 0.0), t3 = (0.0 / 0.0), azimuth = (0.0 / 0.0), miss = (0.0 / 0.0)}}
 
 -- The stages of a search: on each side, first some points, then cells down to the leaves, then the leaves that are
 -- left.
@@ -537,6 +537,13 @@ function law.present_limit_deg(settings, known, widest_m)
     return max(declared_deg - known.overshoot_deg, min(least_deg, declared_deg))
 end
 
+-- Whether a roll response differs so much that delays of changes of bank must be computed again.
+function law.is_changed(roll, before)
+    local time_s, lag_s = before.time_s, before.lag_s
+    return abs(roll.time_s - time_s) > 0.01--[[ROLL_CHANGED]] * time_s or abs(roll.rate_deg_s - before.rate_deg_s) >
+            0.01--[[ROLL_CHANGED]] * before.rate_deg_s or abs(roll.lag_s - lag_s) > 0.01--[[ROLL_CHANGED]] * time_s
+end
+
 -- Radius of a coordinated turn, metres: V^2 / (g tan bank).
 function law.radius_at_bank(airspeed_m_s, bank_deg)
     return airspeed_m_s * airspeed_m_s / (9.80665--[[STANDARD_GRAVITY_M_S2]] * tan(bank_deg * 0.017453292519943295))
@@ -552,83 +559,25 @@ function law.command_gain(roll_time_s)
     return min(max(roll_time_s / 0.15--[[QUICKEST_S]], 1.0), 2.5--[[COMMAND_GAIN]])
 end
 
--- When a change of bank under `demand_deg` changes the turn rate, which is proportional to tan(bank).
---
--- Let m be the missing bank, p the limit of the roll rate, and g how far the bank limit lies beyond the target. The
--- bank changes at the least of p, (m + g)/tau (the command is at the bank limit) and `command_gain` m/tau. As m
--- shrinks these apply in that order. The time at which m is left follows from each in closed form. The mean time at
--- which the parts of the change take effect, and its variance, are integrals over these three ranges, by Gauss's
--- rules.
-function law.turn_onset(roll_time_s, rate_deg_s, bank_deg, target_deg, limit_deg)
-    local tau, p, gain, m = roll_time_s, rate_deg_s, law.command_gain(roll_time_s), abs(target_deg - bank_deg)
-    local last_s = tau / gain
-    local g = max(limit_deg - (target_deg >= bank_deg and target_deg or -target_deg), 0.0)
-    -- The missing bank below which a demand is within the bank limit, and that at which the rate leaves its limit.
-    local unlimited = gain > 1.0 and g / (gain - 1.0) or huge
-    local is_instant = tau == 0.0 and p == huge
-    if is_instant or m == 0.0 or m <= min(unlimited, p * last_s, 5.0--[[SMALL_CHANGE_DEG]]) then
-        return {lead_s = last_s, variance_s2 = last_s * last_s}
-    end
-    local slow = min(max(p * tau - g, p * last_s), m)
-    local free = min(unlimited, slow)
-    local backward, time_s = target_deg > bank_deg and -1.0 or 1.0, (m - slow) / p
-    local whole, mean, square = 0.0, 0.0, 0.0
-    local tangent, share, at_s
-    if slow < m then
-        local each_x_1 = {law.LEGENDRE_POINTS[1], law.LEGENDRE_POINTS[2], law.LEGENDRE_POINTS[3]}
-        local each_w_1 = {law.LEGENDRE_WEIGHTS[1], law.LEGENDRE_WEIGHTS[2], law.LEGENDRE_WEIGHTS[3]}
-        for i_1 = 1, 3 do
-            local x = each_x_1[i_1]
-            local w = each_w_1[i_1]
-            tangent = tan((target_deg + backward * (slow + x * (m - slow))) * 0.017453292519943295)
-            share = w * (m - slow) * (1.0 + tangent * tangent)
-            at_s = (1.0 - x) * time_s
-            whole = whole + share
-            mean = mean + share * at_s
-            square = square + share * at_s * at_s
-        end
-    end
-    if free < slow then
-        -- In the square of a variable the logarithm is smooth where it begins.
-        local each_x_2 = {law.LEGENDRE_POINTS[1], law.LEGENDRE_POINTS[2], law.LEGENDRE_POINTS[3]}
-        local each_w_2 = {law.LEGENDRE_WEIGHTS[1], law.LEGENDRE_WEIGHTS[2], law.LEGENDRE_WEIGHTS[3]}
-        for i_2 = 1, 3 do
-            local x = each_x_2[i_2]
-            local w = each_w_2[i_2]
-            local left = free + x * x * (slow - free)
-            tangent = tan((target_deg + backward * left) * 0.017453292519943295)
-            at_s = time_s + tau * log((slow + g) / (left + g))
-            share = 2.0 * x * w * (slow - free) * (1.0 + tangent * tangent)
-            whole = whole + share
-            mean = mean + share * at_s
-            square = square + share * at_s * at_s
-        end
-    end
-    if free > 0.0 then
-        time_s = time_s + tau * log((slow + g) / (free + g))
-        local each_x_3 = {law.LAGUERRE_POINTS[1], law.LAGUERRE_POINTS[2], law.LAGUERRE_POINTS[3]}
-        local each_kept_3 = {law.LAGUERRE_SHARES[1], law.LAGUERRE_SHARES[2], law.LAGUERRE_SHARES[3]}
-        local each_w_3 = {law.LAGUERRE_WEIGHTS[1], law.LAGUERRE_WEIGHTS[2], law.LAGUERRE_WEIGHTS[3]}
-        for i_3 = 1, 3 do
-            local x = each_x_3[i_3]
-            local kept = each_kept_3[i_3]
-            local w = each_w_3[i_3]
-            tangent = tan((target_deg + backward * free * kept) * 0.017453292519943295)
-            at_s = time_s + x * last_s
-            share = w * free * (1.0 + tangent * tangent)
-            whole = whole + share
-            mean = mean + share * at_s
-            square = square + share * at_s * at_s
-        end
-    end
-    local lead_s = mean / whole
-    return {lead_s = lead_s, variance_s2 = max(square / whole - lead_s * lead_s, 0.0)}
+-- The largest change of bank that counts as infinitely small: its rate is not limited.
+function law.small_change_deg(roll)
+    return min(5.0--[[SMALL_CHANGE_DEG]], roll.rate_deg_s * roll.time_s / law.command_gain(roll.time_s))
 end
 
--- `turn_onset` for whole half degrees.
-function law.rounded_onset(roll_time_s, rate_deg_s, bank_deg, target_deg, limit_deg)
-    local begin_deg, end_deg = 0.5 * law.half_degrees(bank_deg), 0.5 * law.half_degrees(target_deg)
-    return law.turn_onset(roll_time_s, rate_deg_s, begin_deg, end_deg, limit_deg)
+-- By how much less is commanded for each degree per second of the bank rate, seconds.
+--
+-- With the gain K the bank then obeys tau lag bank'' + (tau + this) bank' + K (bank - target) = 0, with the damping
+-- `DAMPING` at least. It is 0 without a lag.
+function law.rate_gain_s(roll)
+    return max(2.0 * 0.8--[[DAMPING]] * sqrt(law.command_gain(roll.time_s) * roll.time_s * roll.lag_s) -
+            roll.time_s, 0.0)
+end
+
+-- When a small change of bank takes effect.
+function law.small_onset(roll)
+    local gain = law.command_gain(roll.time_s)
+    local first_s = (roll.time_s + law.rate_gain_s(roll)) / gain
+    return {lead_s = first_s, variance_s2 = max(first_s * first_s - 2.0 * roll.time_s * roll.lag_s / gain, 0.0)}
 end
 
 -- `value`, limited to the range from -`limit` to `limit`.
@@ -637,24 +586,118 @@ function law.clip(value, limit)
     return value > limit and limit or value < -limit and -limit or value
 end
 
+-- The exact bank after `time_s` seconds under a constant command.
+function law.bank_after(roll_time_s, rate_deg_s, bank_deg, command_deg, time_s)
+    if roll_time_s == 0.0 and rate_deg_s == huge then
+        return command_deg
+    end
+    local missing = command_deg - bank_deg
+    local sign = missing >= 0.0 and 1.0 or -1.0
+    local beyond = max(abs(missing) - rate_deg_s * roll_time_s, 0.0)
+    local limited_s = beyond / rate_deg_s
+    if limited_s > time_s then
+        return bank_deg + sign * rate_deg_s * time_s
+    end
+    missing = missing - sign * beyond
+    if roll_time_s > 0.0 then
+        return command_deg - missing * exp(-(time_s - limited_s) / roll_time_s)
+    end
+    return time_s <= limited_s and command_deg - missing or command_deg
+end
+
+-- The bank after a short time under a constant command; exact without a lag of the bank rate.
+function law.roll_after(roll, now, command_deg, time_s)
+    if roll.lag_s == 0.0 or time_s == 0.0 then
+        return {bank_deg = law.bank_after(roll.time_s, roll.rate_deg_s, now.bank_deg, command_deg, time_s),
+                rate_deg_s = now.rate_deg_s}
+    end
+    local kept = exp(-time_s / roll.lag_s)
+    local wanted_deg_s = (command_deg - now.bank_deg - 0.5 * time_s * now.rate_deg_s) / roll.time_s
+    local rate_deg_s = law.clip(wanted_deg_s + kept * (now.rate_deg_s - wanted_deg_s), roll.rate_deg_s)
+    local share = roll.lag_s / time_s - kept / (1.0 - kept)
+    return {bank_deg = now.bank_deg + time_s * (rate_deg_s + share * (now.rate_deg_s - rate_deg_s)), rate_deg_s =
+            rate_deg_s}
+end
+
+-- The delay of a small change of bank from `beyond_deg` beyond the target, in degrees of bank, not in turn rates.
+--
+-- With a = tau lag/K and b = (tau + rate gain)/K the missing bank m obeys a m'' + b m' + m = 0, so that its
+-- integral over time is b m + a m', and that of m t is b times this less a m. A demand at the bank limit has the
+-- gain 1.
+function law.linear_delay(roll, beyond_deg, rate_deg_s, is_limited)
+    local gain = is_limited and 1.0 or law.command_gain(roll.time_s)
+    local a, b = roll.time_s * roll.lag_s / gain, (roll.time_s + (is_limited and 0.0 or law.rate_gain_s(roll))) /
+            gain
+    local missing_s = -b * beyond_deg - a * rate_deg_s
+    return {missing_s = missing_s, moment_s2 = b * missing_s + a * beyond_deg}
+end
+
+-- How a change of bank under `demand_deg` delays a turn.
+--
+-- The turn rate is proportional to tan(bank). The change is flown in steps until it is small; the rest is linear.
+function law.turn_delay(roll, now, target_deg, limit_deg)
+    local gain, braking_s, tangent = law.command_gain(roll.time_s), law.rate_gain_s(roll), tan(target_deg *
+            0.017453292519943295)
+    local missing_s, moment_s2, time_s, is_limited, left = 0.0, 0.0, 0.0, true, 24--[[STEPS]]
+    local small_deg = law.small_change_deg(roll)
+    local dt = (abs(target_deg - now.bank_deg) / roll.rate_deg_s + 1.5--[[SETTLING]] * (roll.time_s + braking_s)) /
+            24--[[STEPS]]
+    while dt > 0.0 and left > 0 do
+        -- The demand at half time.
+        local there_deg = now.bank_deg + 0.5 * dt * now.rate_deg_s
+        local change_deg = gain * (target_deg - there_deg) - braking_s * now.rate_deg_s
+        is_limited = abs(there_deg + change_deg) > limit_deg
+        if not is_limited and abs(target_deg - now.bank_deg) + roll.lag_s * abs(now.rate_deg_s) < small_deg then
+            break
+        end
+        local after = law.roll_after(roll, now, law.clip(there_deg + change_deg, limit_deg), dt)
+        local part_s = dt * (tangent - tan(0.5 * (now.bank_deg + after.bank_deg) * 0.017453292519943295))
+        missing_s = missing_s + part_s
+        moment_s2 = moment_s2 + part_s * (time_s + 0.5 * dt)
+        local rate_deg_s = roll.lag_s > 0.0 and after.rate_deg_s or (after.bank_deg - now.bank_deg) / dt
+        now = {bank_deg = after.bank_deg, rate_deg_s = rate_deg_s}
+        time_s = time_s + dt
+        left = left - 1
+    end
+    local slope = (1.0 + tangent * tangent) * 0.017453292519943295
+    local rest = law.linear_delay(roll, now.bank_deg - target_deg, now.rate_deg_s, is_limited)
+    missing_s = missing_s + slope * rest.missing_s
+    return {missing_s = missing_s, moment_s2 = moment_s2 + slope * (time_s * rest.missing_s + rest.moment_s2)}
+end
+
+-- When a change of bank from rest, under `demand_deg`, changes the turn rate.
+function law.turn_onset(roll, bank_deg, target_deg, limit_deg)
+    local change_deg = target_deg - bank_deg
+    local is_limited = abs(bank_deg + law.command_gain(roll.time_s) * change_deg) > limit_deg
+    if change_deg == 0.0 or (abs(change_deg) <= law.small_change_deg(roll) and not is_limited) then
+        return law.small_onset(roll)
+    end
+    local delay = law.turn_delay(roll, {bank_deg = bank_deg, rate_deg_s = 0.0}, target_deg, limit_deg)
+    local change = tan(target_deg * 0.017453292519943295) - tan(bank_deg * 0.017453292519943295)
+    local lead_s = delay.missing_s / change
+    return {lead_s = lead_s, variance_s2 = max(2.0 * delay.moment_s2 / change - lead_s * lead_s, 0.0)}
+end
+
+-- `turn_onset` for whole half degrees.
+function law.rounded_onset(roll, bank_deg, target_deg, limit_deg)
+    return law.turn_onset(roll, 0.5 * law.half_degrees(bank_deg), 0.5 * law.half_degrees(target_deg), limit_deg)
+end
+
 -- What follows from the estimates of the vehicle, after other estimates.
 function law.limits_of(settings, vehicle, before)
     local known, V, R = vehicle.estimates, vehicle.estimates.airspeed_m_s, settings.radius_m
     local wind_differs, east, north = law.planned_wind(settings, known, before.wind_differs)
     local widest_m = law.widest_turn_m(V, R, east, north)
     local limit_deg = law.present_limit_deg(settings, known, widest_m)
-    local roll_time_s, rate_deg_s = before.roll_time_s, before.roll_rate_deg_s
-    local is_other = abs(known.roll.time_s - roll_time_s) > 0.01--[[ROLL_CHANGED]] * roll_time_s or
-            abs(known.roll.rate_deg_s - rate_deg_s) > 0.01--[[ROLL_CHANGED]] * rate_deg_s or limit_deg ~=
-            before.limit_deg
+    local roll = before.roll
+    local is_other = law.is_changed(known.roll, roll) or limit_deg ~= before.limit_deg
     if is_other then
-        roll_time_s = known.roll.time_s
-        rate_deg_s = known.roll.rate_deg_s
+        roll = known.roll
     end
     local tightest_m = law.radius_at_bank(known.turn_airspeed_m_s, limit_deg) / known.turn_ratio
     local lead_s = before.lead_s
     if is_other then
-        lead_s = law.rounded_onset(roll_time_s, rate_deg_s, 0.0, limit_deg, limit_deg).lead_s
+        lead_s = law.rounded_onset(roll, 0.0, limit_deg, limit_deg).lead_s
     end
     local turned = lead_s * V / tightest_m
     local reserve = settings.reserve * (1.0 + known.turns_unknown + 0.8--[[ROLL_RESERVE]] * turned)
@@ -664,13 +707,13 @@ function law.limits_of(settings, vehicle, before)
             law.half_degrees(hold_deg)
     local reversal_s2 = before.reversal_s2
     if is_other or planned ~= before.planned_half_deg or hold ~= before.hold_half_deg then
-        reversal_s2 = law.turn_onset(roll_time_s, rate_deg_s, -0.5 * planned, 0.5 * hold, limit_deg).variance_s2
+        reversal_s2 = law.turn_onset(roll, -0.5 * planned, 0.5 * hold, limit_deg).variance_s2
     end
     return {revision = vehicle.revision, wind_differs = wind_differs, wind_east_m_s = east, wind_north_m_s = north,
-            roll_time_s = roll_time_s, roll_rate_deg_s = rate_deg_s, limit_deg = limit_deg, turns = {airspeed_m_s =
-            V, tightest_m = tightest_m, planned_m = planned_m}, hold_deg = hold_deg, hold_half_deg = hold,
-            planned_half_deg = planned, lead_s = lead_s, reversal_s2 = reversal_s2, reversal_m = 0.5 * reversal_s2 *
-            V * V * (1.0 / planned_m + 1.0 / R), lag_s = lead_s + 1.0--[[DELAY_SHARE]] * known.delay_s}
+            roll = roll, limit_deg = limit_deg, turns = {airspeed_m_s = V, tightest_m = tightest_m, planned_m =
+            planned_m}, hold_deg = hold_deg, hold_half_deg = hold, planned_half_deg = planned, lead_s = lead_s,
+            reversal_s2 = reversal_s2, reversal_m = 0.5 * reversal_s2 * V * V * (1.0 / planned_m + 1.0 / R), lag_s =
+            lead_s + 1.0--[[DELAY_SHARE]] * known.delay_s}
 end
 
 -- The average before the first measurement.
@@ -705,10 +748,11 @@ function law.first_memory(settings, vehicle)
     local limits = law.limits_of(settings, vehicle, law.NO_LIMITS)
     local observer, history = law.first_observer(settings.smoothing_s), law.constant_history(vehicle.bank_deg)
     return {sensing = {clock = law.FIRST_CLOCK, observer = observer, history = history, limits = limits, present =
-            law.NO_ESTIMATE, elapsed_s = 0.0, model_error_deg = 0.0, is_known = false}, plan = law.NO_PLAN, path =
-            law.no_path(), leads = law.NO_LEADS, response = law.NO_RESPONSE, search = law.NO_ENTRY_SEARCH, trim =
-            0.0, command = {turn_rate_deg_s = 0.0, bank_deg = 0.0, phase = 3--[[NO_DATA]], time_to_join_s = (0.0 /
-            0.0), side = settings.side, next_phase = 3--[[NO_DATA]], next_in_s = (0.0 / 0.0)}, step_s = 0.0}
+            law.NO_ESTIMATE, bank_rate_deg_s = 0.0, elapsed_s = 0.0, model_error_deg = 0.0, is_known = false}, plan
+            = law.NO_PLAN, path = law.no_path(), leads = law.NO_LEADS, response = law.NO_RESPONSE, search =
+            law.NO_ENTRY_SEARCH, trim = 0.0, command = {turn_rate_deg_s = 0.0, bank_deg = 0.0, phase =
+            3--[[NO_DATA]], time_to_join_s = (0.0 / 0.0), side = settings.side, next_phase = 3--[[NO_DATA]],
+            next_in_s = (0.0 / 0.0)}, step_s = 0.0}
 end
 
 -- The clock `dt` seconds later.
@@ -1082,30 +1126,32 @@ end
 function law.sense(sensing, settings, vehicle, measurement, step_s)
     local clock, observer, history, limits, present, elapsed_s, error_deg = sensing.clock, sensing.observer,
             sensing.history, sensing.limits, sensing.present, sensing.elapsed_s, sensing.model_error_deg
+    local rate_deg_s = vehicle.bank_rate_deg_s
     if step_s > 0.0 then
         clock = law.clock_advance(clock, step_s)
         elapsed_s = elapsed_s + step_s
         history = law.record_bank(history, vehicle.bank_deg, step_s, settings.covered_s)
     end
     if not law.is_usable(measurement) then
-        return {clock = clock, observer = observer, history = history, limits = limits, present = present, elapsed_s
-                = elapsed_s, model_error_deg = error_deg, is_known = false}
+        return {clock = clock, observer = observer, history = history, limits = limits, present = present,
+                bank_rate_deg_s = rate_deg_s, elapsed_s = elapsed_s, model_error_deg = error_deg, is_known = false}
     end
     if measurement.time_s == clock.time_s then
         if present.airspeed_m_s == 0.0 or clock.since_s > 3.0--[[EXTRAPOLATED_S]] then
             return {clock = clock, observer = observer, history = history, limits = limits, present = present,
-                    elapsed_s = elapsed_s, model_error_deg = error_deg, is_known = false}
+                    bank_rate_deg_s = rate_deg_s, elapsed_s = elapsed_s, model_error_deg = error_deg, is_known =
+                    false}
         end
         present = law.estimate_after(law.estimate_with_bank(present, history.current_deg + error_deg), elapsed_s)
-        return {clock = clock, observer = observer, history = history, limits = limits, present = present, elapsed_s
-                = 0.0, model_error_deg = error_deg, is_known = true}
+        return {clock = clock, observer = observer, history = history, limits = limits, present = present,
+                bank_rate_deg_s = rate_deg_s, elapsed_s = 0.0, model_error_deg = error_deg, is_known = true}
     end
     local is_first = clock.time_s == -huge
     local is_new
     clock, is_new = law.check_stamp(clock, measurement.time_s)
     if not is_new then
-        return {clock = clock, observer = observer, history = history, limits = limits, present = present, elapsed_s
-                = elapsed_s, model_error_deg = error_deg, is_known = false}
+        return {clock = clock, observer = observer, history = history, limits = limits, present = present,
+                bank_rate_deg_s = rate_deg_s, elapsed_s = elapsed_s, model_error_deg = error_deg, is_known = false}
     end
     if is_first then
         history = law.constant_history(vehicle.bank_deg)
@@ -1121,8 +1167,9 @@ function law.sense(sensing, settings, vehicle, measurement, step_s)
             known.delay_s)
     observer = law.observe(observer, law.remove_bias(known, measurement), bank_deg, settings.smoothing_s, turning)
     present = law.estimate_at_present(observer.estimate, history, known.delay_s)
-    return {clock = clock, observer = observer, history = history, limits = limits, present = present, elapsed_s =
-            0.0, model_error_deg = present.bank_deg - history.current_deg, is_known = true}
+    return {clock = clock, observer = observer, history = history, limits = limits, present = present,
+            bank_rate_deg_s = rate_deg_s, elapsed_s = 0.0, model_error_deg = present.bank_deg - history.current_deg,
+            is_known = true}
 end
 
 -- The search without an aim.
@@ -1286,8 +1333,7 @@ end
 
 -- The delay of a change of bank.
 function law.lead_s(limits, bank_deg, target_deg)
-    return law.rounded_onset(limits.roll_time_s, limits.roll_rate_deg_s, bank_deg, target_deg,
-            limits.limit_deg).lead_s
+    return law.rounded_onset(limits.roll, bank_deg, target_deg, limits.limit_deg).lead_s
 end
 
 -- The search for the fastest entry from a state, before its first step.
@@ -1318,7 +1364,8 @@ end
 
 -- Whether delays of changes of bank are others than before.
 function law.is_other_roll(limits, before)
-    local same = limits.roll_time_s == before.roll_time_s and limits.roll_rate_deg_s == before.roll_rate_deg_s
+    local a, b = limits.roll, before.roll
+    local same = a.time_s == b.time_s and a.rate_deg_s == b.rate_deg_s and a.lag_s == b.lag_s
     return not (same and limits.limit_deg == before.limit_deg)
 end
 
@@ -1340,29 +1387,58 @@ function law.half_deg_on(limits, route, piece)
     return -piece.u * law.half_degrees(law.bank_at_rate(rate, V))
 end
 
--- The delays of changes from a bank to those of the pieces of a route; those that are known are not recomputed.
-function law.leads_to(limits, leads, bank_deg, route)
-    local bank, side, hold, planned = law.half_degrees(bank_deg), route.side, limits.hold_half_deg,
-            limits.planned_half_deg
-    local u3 = law.last_control(route)
+-- How long the present bank rate goes on in effect, seconds: so far ahead is the bank of a small change.
+function law.coasting_s(roll)
+    return roll.lag_s > 0.0 and roll.time_s * roll.lag_s / (roll.time_s + law.rate_gain_s(roll)) or 0.0
+end
+
+-- The time from now to the end of a piece at which the bank of another must be commanded.
+function law.early_s(roll, now, limit_deg, first, first_missing_s, second)
+    if first == second then
+        return 0.0
+    end
+    local missing_s = law.turn_delay(roll, now, 0.5 * second, limit_deg).missing_s
+    return (first_missing_s - missing_s) / (tan(0.5 * first * 0.017453292519943295) - tan(0.5 * second *
+            0.017453292519943295))
+end
+
+-- How changes from a bank to those of the pieces of a route are delayed; what is known is not computed again.
+function law.leads_to(limits, leads, now, route)
+    local bank, rate, u3 = law.half_degrees(now.bank_deg), law.half_degrees(now.rate_deg_s / 4.0--[[RATE_STEPS]]),
+            law.last_control(route)
     local first, second = law.half_deg_on(limits, route, route.current), law.half_deg_on(limits, route,
             route.second)
-    local last = u3 == -2--[[ABSENT]] and side * hold or -u3 * planned
-    if leads.bank == bank and leads.current == first and leads.next == second and leads.last == last then
+    local last = u3 == -2--[[ABSENT]] and route.side * limits.hold_half_deg or -u3 * limits.planned_half_deg
+    if leads.bank == bank and leads.rate == rate and leads.current == first and leads.next == second and leads.last
+            == last then
         return leads
     end
-    local time_s, rate_deg_s, limit_deg, begin_deg = limits.roll_time_s, limits.roll_rate_deg_s, limits.limit_deg,
-            0.5 * bank
-    local first_s = law.turn_onset(time_s, rate_deg_s, begin_deg, 0.5 * first, limit_deg).lead_s
-    local second_s = second == first and first_s or law.turn_onset(time_s, rate_deg_s, begin_deg, 0.5 * second,
-            limit_deg).lead_s
-    if last == first or last == second then
-        return {bank = bank, current = first, next = second, last = last, current_s = first_s, next_s = second_s,
-                last_s = last == first and first_s or second_s}
+    local roll, limit_deg = limits.roll, limits.limit_deg
+    now = {bank_deg = 0.5 * bank, rate_deg_s = 0.5 * 4.0--[[RATE_STEPS]] * rate}
+    local there = tan(now.bank_deg * 0.017453292519943295)
+    local first_s = law.small_onset(roll).lead_s
+    local first_missing_s = law.turn_delay(roll, now, 0.5 * first, limit_deg).missing_s
+    local tangent = tan(0.5 * first * 0.017453292519943295)
+    -- Where the bank goes without a command.
+    local coasted_deg = law.clip(now.bank_deg + law.coasting_s(roll) * now.rate_deg_s, limit_deg)
+    local current_s = first_s
+    if abs(0.5 * first - coasted_deg) > 5.0--[[SMALL_CHANGE_DEG]] then
+        current_s = max(first_missing_s / (tangent - tan(coasted_deg * 0.017453292519943295)), 0.5 * first_s)
+    elseif rate == 0 and first ~= bank then
+        current_s = first_missing_s / (tangent - there)
     end
-    local last_s = law.turn_onset(time_s, rate_deg_s, begin_deg, 0.5 * last, limit_deg).lead_s
-    return {bank = bank, current = first, next = second, last = last, current_s = first_s, next_s = second_s, last_s
-            = last_s}
+    local more = current_s > 0.0 and first ~= bank and tangent - first_missing_s / current_s - there or 0.0
+    local next_s = law.early_s(roll, now, limit_deg, first, first_missing_s, second) - current_s
+    local last_s = law.early_s(roll, now, limit_deg, first, first_missing_s, last) - current_s
+    return {bank = bank, rate = rate, current = first, next = second, last = last, current_s = current_s, more =
+            more, next_s = next_s, last_s = last_s}
+end
+
+-- The estimate with a turn rate that is larger by `more` g/V, positive to the right.
+function law.turning_more(estimate, more)
+    local V = estimate.airspeed_m_s
+    local rate = estimate.turn_rate - estimate.turning.ratio * 9.80665--[[STANDARD_GRAVITY_M_S2]] * more / V
+    return with_fields(estimate, {turn_rate = rate})
 end
 
 -- The counter-clockwise rotation from direction (ax, ay) to (bx, by); by zero where one of them is zero.
@@ -1408,10 +1484,10 @@ end
 
 -- How long before its end the current piece must end, since the next bank takes effect with a delay.
 function law.early_end_s(route, leads)
-    local early_s = leads.next_s - leads.current_s
+    local early_s = leads.next_s
     if route.second.u == 0 and route.third.u ~= -2--[[ABSENT]] and route.third.u ~= route.current.u then
         -- A straight line between opposite turns may be shorter than the reversal, which then begins before its end.
-        early_s = max(early_s, leads.last_s - leads.current_s - 0.5 * route.second.time_s)
+        early_s = max(early_s, leads.last_s - 0.5 * route.second.time_s)
     end
     return max(early_s, 0.0)
 end
@@ -1461,8 +1537,10 @@ function law.advance_plan(memory, settings)
     -- Pieces are dropped that are complete, in a plan of its own at most three.
     local state, early_s
     while true do
-        leads = law.leads_to(limits, leads, estimate.bank_deg, route)
-        state = law.relative_state(settings, law.estimate_after(estimate, leads.current_s))
+        leads = law.leads_to(limits, leads, {bank_deg = estimate.bank_deg, rate_deg_s =
+                memory.sensing.bank_rate_deg_s}, route)
+        state = law.relative_state(settings, law.estimate_after(law.turning_more(estimate, leads.more),
+                leads.current_s))
         left_s = law.remaining_s(route, state, left_s)
         early_s = law.early_end_s(route, leads)
         if law.is_holding(route) or left_s > early_s + 0.000131072--[[ROUNDING_S]] then
@@ -1635,37 +1713,25 @@ function law.two_product(a, b)
     return p, ah * bh - p + ah * bl + al * bh + al * bl
 end
 
--- The squared distances rp^2 - (R + 1)^2, rm^2 - (R - 1)^2 and rp^2 - (R - 3)^2 beyond three circles.
+-- The difference of squares x^2 + (y - R) (y + R + k), with nearly full relative accuracy even near zero.
 --
--- They are `beyond` with R and 2, R and -2, 2 - R and 2. The last is the sum u + d + low, with an error of third
--- order only: at R = 1 + 2e-14 there are doubles next to (-sqrt(3), 0) where it is 8e-32, and where T would lose
--- 1e-9 for the terms that `beyond` leaves out. The others differ from it by -8 (R - 1) and -4 (y + R - 2); for them
--- an error of second order is enough, since next to their circles a single arc replaces the words that depend on
--- them.
-function law.beyond_circles(x, y, R)
-    local s, es = law.two_sum(y, R - 2.0)
-    local t, et = law.two_sum(y, 2.0 - R)
+-- With k = 2 it is rp^2 - (R + 1)^2: the squared distance from (0, -1) less the squared radius of the last circle
+-- of L. With k = -2 it is rm^2 - (R - 1)^2, the same for R about (0, 1). Near zero it is a small difference of
+-- large numbers, and T varies with its square root: in plain doubles T would lose half of its digits there.
+function law.beyond(x, y, R, k)
+    local s, es = law.two_sum(y, -R)
+    local t, et = law.two_sum(y, R)
     local ek
-    t, ek = law.two_sum(t, 2.0)
-    local e, ee = law.two_sum(et, ek)
+    t, ek = law.two_sum(t, k)
     local p, ep = law.two_product(s, t)
     local q, eq = law.two_product(x, x)
-    local v, ev = law.two_product(s, e)
-    local w, ew = law.two_product(t, es)
     local u, eu = law.two_sum(q, p)
-    local a, ea = law.two_sum(ep, eq)
-    local b, eb = law.two_sum(v, w)
-    local c, ec = law.two_sum(a, b)
-    local d, ed = law.two_sum(eu, c)
-    local low = es * e + s * ee + (ev + ew + (ea + eb + (ec + ed)))
-    local f, ef = law.two_sum(u, -8.0 * (R - 1.0))
-    local g, eg = law.two_sum(u, -4.0 * s)
-    return f + (ef + d), g + (eg + d - 4.0 * es), u + d + low
+    return u + (eu + (ep + eq + s * (et + ek) + t * es))
 end
 
 -- The start at a reduced state.
 function law.start_at(x, y, R, arc_tolerance)
-    local outer, inner, fold = law.beyond_circles(x, y, R)
+    local outer, inner, fold = law.beyond(x, y, R, 2.0), law.beyond(x, y, R, -2.0), law.beyond(x, y, 2.0 - R, 2.0)
     return {x = x, y = y, R = R, arc_tolerance = arc_tolerance, outer = outer, inner = inner, fold = fold}
 end
 
@@ -1700,8 +1766,8 @@ end
 
 -- LSL: onto the axis at (-c, 0), straight to (-X, 0), X = sqrt(R (R + 2)), left for acos(1/(R + 1)).
 --
--- `y` is the ordinate of the start, with the opposite sign for RSL. `joins` says whether c >= X, decided as in the
--- selection of words; rounding may still make c - X negative.
+-- `y` is the ordinate of the start, with the opposite sign for RSL. `joins` says whether c >= X, decided by
+-- `exact.beyond` as in the selection of words; rounding may still make c - X negative.
 function law.external_join(word, y, start, joins)
     local R = start.R
     local first, c = law.onto_axis(start.x, y, -1.0, start.arc_tolerance)
@@ -1829,9 +1895,9 @@ function law.lrl(start)
     return {word = 55--[[Word.LRL]], first = first, straight = exists and 0.0 or huge, middle = middle, last = last}
 end
 
--- Left, straight, right, from inside a circle of R >= 2: rp <= R - 1, that is rp^2 - (R - 3)^2 <= 4 (R - 2).
+-- Left, straight, right, from inside a circle of R >= 2: rp <= R - 1.
 function law.lsr(start)
-    return law.internal_join(27--[[Word.LSR]], start.y, start, start.fold <= 4.0 * (start.R - 2.0))
+    return law.internal_join(27--[[Word.LSR]], start.y, start, law.beyond(start.x, start.y, -start.R, 2.0) <= 0.0)
 end
 
 -- Whether an extremal ends at the target.
@@ -2351,11 +2417,13 @@ end
 -- The command that brings the bank to a target `command_gain` times as fast as commanding the target would.
 --
 -- It lies beyond the target, but never beyond the bank limit.
-function law.demand_deg(roll_time_s, bank_deg, target_deg, limit_deg)
-    if roll_time_s == 0.0 then
+function law.demand_deg(roll, now, target_deg, limit_deg)
+    if roll.time_s == 0.0 then
         return target_deg
     end
-    return law.clip(bank_deg + law.command_gain(roll_time_s) * (target_deg - bank_deg), limit_deg)
+    local change_deg = law.command_gain(roll.time_s) * (target_deg - now.bank_deg) - law.rate_gain_s(roll) *
+            now.rate_deg_s
+    return law.clip(now.bank_deg + change_deg, limit_deg)
 end
 
 -- The phase in which a control is flown; on the circle, which follows the last control, if that is absent.
@@ -2371,7 +2439,8 @@ function law.conclude(memory, settings, vehicle, dt)
     local limits, present = memory.sensing.limits, memory.sensing.present
     local target_deg, trim = law.target_bank(settings, memory, vehicle.estimates, dt)
     target_deg = law.clip(target_deg, limits.limit_deg)
-    local bank_deg = law.demand_deg(vehicle.estimates.roll.time_s, present.bank_deg, target_deg, limits.limit_deg)
+    local now = {bank_deg = present.bank_deg, rate_deg_s = memory.sensing.bank_rate_deg_s}
+    local bank_deg = law.demand_deg(vehicle.estimates.roll, now, target_deg, limits.limit_deg)
     bank_deg = law.clip(bank_deg, settings.command_limit_deg)
     local route = memory.plan.route
     local command = {turn_rate_deg_s = law.turn_rate_deg_s(vehicle.estimates, bank_deg), bank_deg = bank_deg, phase
@@ -2381,30 +2450,12 @@ function law.conclude(memory, settings, vehicle, dt)
     return with_fields(memory, {trim = trim, command = command, step_s = dt})
 end
 
--- The exact bank after `time_s` seconds under a constant command.
-function law.bank_after(roll_time_s, rate_deg_s, bank_deg, command_deg, time_s)
-    if roll_time_s == 0.0 and rate_deg_s == huge then
-        return command_deg
-    end
-    local missing = command_deg - bank_deg
-    local sign = missing >= 0.0 and 1.0 or -1.0
-    local beyond = max(abs(missing) - rate_deg_s * roll_time_s, 0.0)
-    local limited_s = beyond / rate_deg_s
-    if limited_s > time_s then
-        return bank_deg + sign * rate_deg_s * time_s
-    end
-    missing = missing - sign * beyond
-    if roll_time_s > 0.0 then
-        return command_deg - missing * exp(-(time_s - limited_s) / roll_time_s)
-    end
-    return time_s <= limited_s and command_deg - missing or command_deg
-end
-
 -- The model of a vehicle that is as declared after `dt` seconds under a command; `identify` is not needed then.
 function law.fly_as_declared(vehicle, command_deg, dt)
-    local revision, bank_deg, known = vehicle.revision, vehicle.bank_deg, vehicle.estimates
+    local revision, bank_deg, rate_deg_s, known = vehicle.revision, vehicle.bank_deg, vehicle.bank_rate_deg_s,
+            vehicle.estimates
     bank_deg = law.bank_after(known.roll.time_s, known.roll.rate_deg_s, bank_deg, command_deg, dt)
-    return {revision = revision, bank_deg = bank_deg, estimates = known}
+    return {revision = revision, bank_deg = bank_deg, bank_rate_deg_s = rate_deg_s, estimates = known}
 end
 
 -- The fit before a measurement, or one that does not relate later measurements to earlier ones.
@@ -3068,27 +3119,6 @@ local function measure_airspeed(now, mode)
     mean_airspeed.value = mean_airspeed.value + share * (equivalent_m_s - mean_airspeed.value)
 end
 
--- The bank before a flight, and since when it has been steady.
-local steady = {bank_deg = 0.0, since_ms = nil}
-
-local function watch_bank(now)
-    if steady.since_ms == nil or math.abs(now.bank_deg - steady.bank_deg) > STEADY_DEG then
-        steady = {bank_deg = now.bank_deg, since_ms = now.now_ms}
-    end
-end
-
--- The modelled banks before a flight, the last one first; none where the bank was not steady.
-local function banks_before(now)
-    local banks = {}
-    if (now.now_ms - steady.since_ms):toint() >= MOST_STEPS * PERIOD_MS then
-        for k = 1, MOST_STEPS do
-            banks[k] = now.bank_deg
-        end
-    end
-    steady.since_ms = nil
-    return banks
-end
-
 -- The errors of the modelled bank for each delay, and the delay that follows from them; one flight learns from another.
 local delay_errors, delay_s = {}, DELAY_S
 for k = 0, MOST_STEPS do
@@ -3355,7 +3385,7 @@ local function begin(now)
     local _, state = nil, relative(now)
     flight.ratio, flight.begun_ms, flight.command_deg = now.ratio, now.now_ms, now.bank_deg
     -- The bank has changed since the flight was prepared.
-    flight.model.bank_deg, flight.banks = now.bank_deg, banks_before(now)
+    flight.model.bank_deg, flight.banks = now.bank_deg, {}
     -- The nearer side, until the law has a plan.
     local cross = state.east_m * now.velocity_north_m_s - state.north_m * now.velocity_east_m_s
     flight.side = flight.settings.side ~= 0 and flight.settings.side or cross < 0.0 and 1 or -1
@@ -3402,7 +3432,7 @@ local function guide(now)
     local memory = law.prepare(flight.memory, flight.settings, flight.model, state)
     flight.memory = law.conclude(memory, flight.settings, flight.model, PERIOD_MS * 0.001)
     local command = flight.memory.command
-    local limit_deg, bank_deg = flight.settings.limit_deg, flight.command_deg
+    -- Until there is a plan, the circle by ArduPlane's own guidance goes on.
     if command.phase ~= 3 or flight.is_commanded then
         flight.command_deg, flight.side, flight.is_commanded = command.bank_deg, command.side, true
         if is_held(now, state) then
@@ -3410,17 +3440,12 @@ local function guide(now)
             return
         end
         -- On the circle with the bias that the law takes from measured banks: ArduPlane flies the bank that it measures.
-        bank_deg = command.bank_deg + (command.phase == 2 and turns.slow.bank_bias_deg or 0.0)
-    elseif (now.now_ms - flight.begun_ms):toint() >= FIRST_PLAN_MS then
-        -- The circle by ArduPlane's own guidance, until there is a plan.
-        if not flight.is_left then
-            flight.is_left = reposition() == ACCEPTED
+        local bias_deg = command.phase == 2 and turns.slow.bank_bias_deg or 0.0
+        local limit_deg = flight.settings.limit_deg
+        if not command_bank(now, math.max(-limit_deg, math.min(flight.command_deg + bias_deg, limit_deg))) then
+            finish(SEVERITY.WARNING, "bank refused", false)
+            return
         end
-        bank_deg = nil
-    end
-    if bank_deg and not command_bank(now, math.max(-limit_deg, math.min(bank_deg, limit_deg))) then
-        finish(SEVERITY.WARNING, "bank refused", false)
-        return
     end
     flight.beat = (flight.beat or 0) % 1000 + 1
     BEAT:set(flight.side * flight.beat)
@@ -3437,7 +3462,6 @@ local function wait(now)
         return
     end
     measure_turns(now)
-    watch_bank(now)
     if flight and is_current(now) then
         if is_high and not is_latched then
             begin(now)

@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 99b4751633e24457735a6e52f6504c3e230ef34edf2ed719f5d12849c2374e9d
+ * SHA-256 of the source: 251dc02c22de7602c13ab2226f4a491fcb4b7416496bcad7d5774a558468c767
  */
 #include "loiter.h"
 
@@ -63,11 +63,6 @@ typedef uint64_t unsigned_integer;
 #else
 #define APART
 #endif
-
-/* Whether a step may be so long, seconds. */
-static inline bool is_step(real dt_s) {
-    return dt_s > REAL(0.0) && dt_s <= (real)LOITER_LONGEST_STEP_S;
-}
 
 typedef loiter_Rings Rings;
 
@@ -138,9 +133,9 @@ typedef struct { real a0; Extremal a1; } real_Extremal;
  */
 typedef struct { real x, y, R, arc_tolerance, outer, inner, fold; } Start;
 
-typedef struct { real a0, a1, a2; } real_3;
-
 typedef struct { real_2 a0; real a1; } real_2_real;
+
+typedef struct { real a0, a1, a2; } real_3;
 
 typedef struct { integer a0; real a1, a2, a3; } integer_real_3;
 
@@ -351,6 +346,16 @@ typedef struct { bool a0; real a1, a2; } bool_real_2;
  * is displaced towards the new turn by half of `variance_s2` times airspeed times the change of turn rate.
  */
 typedef struct { real lead_s, variance_s2; } TurnOnset;
+
+/* A bank and its rate, which counts only where that has a lag; degrees and degrees per second. */
+typedef struct { real bank_deg, rate_deg_s; } Bank;
+
+/* How a change of bank delays a turn.
+ *
+ * With w the turn rate divided by g/V, and w1 the one after the change: `missing_s` is the integral of w1 - w over
+ * time, and `moment_s2` that of the same times the time.
+ */
+typedef struct { real missing_s, moment_s2; } TurnDelay;
 
 /* An aircraft at an instant, true or as measured by its sensors.
  *
@@ -584,9 +589,6 @@ static const WindCandidate NO_CANDIDATE = {REAL(0.0), 0, {REAL_INFINITY, 0, REAL
 #define WIND_TIE_TOLERANCE REAL(1e-12)
 #endif
 
-/* The arc of the circle that is held for `hold_tolerance`. */
-#define UNKNOWN_ARC REAL(0.0015339807878856412) /* TWO_PI / 4096.0 */
-
 /* In cells within this many half widths of the end of the best path, bounds around that end are tried too. */
 #define NEAR_BEST REAL(8.0)
 
@@ -599,7 +601,7 @@ static const WindCandidate NO_CANDIDATE = {REAL(0.0), 0, {REAL_INFINITY, 0, REAL
 /* The angle by which the other arc may change while one vanishes. */
 #define SWING REAL(1.5707963267948966) /* 0.5 * pi */
 #define STANDARD_GRAVITY_M_S2 REAL(9.80665)
-static const Limits NO_LIMITS = {-1, false, REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), {REAL(1.0), REAL(1.0), REAL(1.0)}, REAL(0.0), 0, 0, REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)};
+static const Limits NO_LIMITS = {-1, false, REAL(0.0), REAL(0.0), {REAL(0.0), REAL(0.0), REAL(0.0)}, REAL(0.0), {REAL(1.0), REAL(1.0), REAL(1.0)}, REAL(0.0), 0, 0, REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)};
 
 /* The wind is planned as estimated, not as declared, where they differ by the first share of the airspeed, until
  * they differ by less than the second.
@@ -629,15 +631,19 @@ static const Limits NO_LIMITS = {-1, false, REAL(0.0), REAL(0.0), REAL(0.0), REA
 #define QUICKEST_S REAL(0.15)
 #define COMMAND_GAIN REAL(2.5)
 
-/* A smaller change of bank, degrees, takes effect like an infinitely small one where only the last range is passed. */
+/* A smaller change of bank, degrees, takes effect like an infinitely small one where neither it nor its rate is
+ * limited.
+ */
 #define SMALL_CHANGE_DEG REAL(5.0)
 
-/* Gauss-Legendre points and weights on [0, 1], and Gauss-Laguerre points x, exp(-x) and weights. */
-static const real_3 LEGENDRE_POINTS = {REAL(0.1127016653792583), REAL(0.5), REAL(0.8872983346207417)};
-static const real_3 LEGENDRE_WEIGHTS = {REAL(0.2777777777777778), REAL(0.4444444444444444), REAL(0.2777777777777778)};
-static const real_3 LAGUERRE_POINTS = {REAL(0.4157745567834791), REAL(2.294280360279042), REAL(6.2899450829374794)};
-static const real_3 LAGUERRE_SHARES = {REAL(0.6598290076917097), REAL(0.10083393126672065), REAL(0.0018548618076203868)};
-static const real_3 LAGUERRE_WEIGHTS = {REAL(0.711093009929173), REAL(0.27851773356924087), REAL(0.010389256501586137)};
+/* The damping of a bank whose rate has a lag, under these commands. */
+#define DAMPING REAL(0.8)
+
+/* The largest number of steps in which a change of bank is flown. */
+#define STEPS 24
+
+/* These last for the change at the limit of the roll rate, and for so many time constants more. */
+#define SETTLING REAL(1.5)
 
 /* The reserve grows by this share for each radian that the aircraft could turn during the delay of its roll: the
  * slower the roll, the farther an error of its estimate takes the aircraft off the last arc.
@@ -667,7 +673,7 @@ static const AlongFlight CALM_ALONG = {REAL(0.0), REAL(0.0), REAL(3.0)};
 static const Estimate NO_ESTIMATE = {-REAL_INFINITY, {REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0)}, REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), {REAL(1.0), REAL(0.0)}};
 static const Clock FIRST_CLOCK = {-REAL_INFINITY, REAL(0.0), REAL_INFINITY, REAL(0.0), REAL_NAN, REAL_NAN};
 static const Plan NO_PLAN = {{0, {-2, REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(1.0)}, {-2, REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(1.0)}, {-2, REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(1.0)}, REAL(0.0), -2, REAL(0.0), REAL(1.0), REAL(1.0), REAL(0.0), REAL(0.0)}, REAL(0.0), REAL_INFINITY, REAL_INFINITY, -REAL_INFINITY};
-static const Leads NO_LEADS = {-1000000000, 0, 0, 0, REAL(0.0), REAL(0.0), REAL(0.0)};
+static const Leads NO_LEADS = {-1000000000, 0, 0, 0, 0, REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)};
 static const ResponsePoint NO_RESPONSE = {{REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)}, {REAL(0.0), REAL(0.0), REAL(0.0)}, REAL(0.0)};
 static const EntrySearch NO_ENTRY_SEARCH = {0, {REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)}, {REAL(1.0), REAL(1.0), REAL(1.0)}, REAL(0.0), REAL(0.0), REAL(1.0), REAL(1.0), 0, false, false, false, {0, 0, 1, {REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0), REAL(1.0), REAL(0.0), REAL(0.0), REAL(0.0)}, {REAL(0.0), 0, {REAL_INFINITY, 0, REAL(0.0), REAL(0.0), REAL(0.0), REAL(1.0), REAL(1.0), REAL(0.0)}}, {{0, 0, REAL_INFINITY, REAL(0.0), REAL(0.0)}, REAL(0.0), REAL_INFINITY}, {0, 0, 63}, {-2, {REAL(0.0), {REAL_INFINITY, 0, REAL(0.0), REAL(0.0), REAL(0.0), REAL(1.0), REAL(1.0), REAL(0.0)}, REAL(0.0)}}, {0, 0, 0, 0}, {0, 0, 0, 0}, {REAL(0.0), 0, REAL(0.0), REAL(0.0)}, REAL_INFINITY, 0, {0, 0, REAL(0.0), {REAL(0.0), {REAL_INFINITY, 0, REAL(0.0), REAL(0.0), REAL(0.0), REAL(1.0), REAL(1.0), REAL(0.0)}, REAL(0.0)}, {REAL(0.0), {REAL_INFINITY, 0, REAL(0.0), REAL(0.0), REAL(0.0), REAL(1.0), REAL(1.0), REAL(0.0)}, REAL(0.0)}, {REAL(0.0), {REAL_INFINITY, 0, REAL(0.0), REAL(0.0), REAL(0.0), REAL(1.0), REAL(1.0), REAL(0.0)}, REAL(0.0)}, 0, false, 0, 0}, {0, REAL(0.0), REAL(0.0)}, 0, {12, 0, 0, REAL_NAN, REAL_NAN, REAL_NAN, REAL_NAN, REAL_NAN}}};
 
@@ -751,6 +757,9 @@ static const RoutePiece NO_PIECE = {-2, REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.
  * none.
  */
 #define FIRST_TURN 1
+
+/* Rates of the bank count in steps of so many half degrees per second. */
+#define RATE_STEPS REAL(4.0)
 
 /* Beyond this crosstrack error, turn radii, or course error, radians, the aircraft is lost: any new plan is
  * accepted.
@@ -888,55 +897,34 @@ static inline real_2 two_product(real a, real b) {
     return MAKE(real_2){p, ah * bh - p + ah * bl + al * bh + al * bl};
 }
 
-/* The squared distances rp^2 - (R + 1)^2, rm^2 - (R - 1)^2 and rp^2 - (R - 3)^2 beyond three circles.
+/* The difference of squares x^2 + (y - R) (y + R + k), with nearly full relative accuracy even near zero.
  *
- * They are `beyond` with R and 2, R and -2, 2 - R and 2. The last is the sum u + d + low, with an error of third
- * order only: at R = 1 + 2e-14 there are doubles next to (-sqrt(3), 0) where it is 8e-32, and where T would lose
- * 1e-9 for the terms that `beyond` leaves out. The others differ from it by -8 (R - 1) and -4 (y + R - 2); for them
- * an error of second order is enough, since next to their circles a single arc replaces the words that depend on
- * them.
+ * With k = 2 it is rp^2 - (R + 1)^2: the squared distance from (0, -1) less the squared radius of the last circle
+ * of L. With k = -2 it is rm^2 - (R - 1)^2, the same for R about (0, 1). Near zero it is a small difference of
+ * large numbers, and T varies with its square root: in plain doubles T would lose half of its digits there.
  */
-static inline real_3 beyond_circles(real x, real y, real R) {
-    const real_2 two_sum_1 = two_sum(y, R - REAL(2.0));
+static inline real beyond(real x, real y, real R, real k) {
+    const real_2 two_sum_1 = two_sum(y, -R);
     const real s = two_sum_1.a0, es = two_sum_1.a1;
-    const real_2 two_sum_2 = two_sum(y, REAL(2.0) - R);
+    const real_2 two_sum_2 = two_sum(y, R);
     real t = two_sum_2.a0;
     const real et = two_sum_2.a1;
-    const real_2 two_sum_3 = two_sum(t, REAL(2.0));
+    const real_2 two_sum_3 = two_sum(t, k);
     t = two_sum_3.a0;
     const real ek = two_sum_3.a1;
-    const real_2 two_sum_4 = two_sum(et, ek);
-    const real e = two_sum_4.a0, ee = two_sum_4.a1;
-    const real_2 two_product_5 = two_product(s, t);
-    const real p = two_product_5.a0, ep = two_product_5.a1;
-    const real_2 two_product_6 = two_product(x, x);
-    const real q = two_product_6.a0, eq = two_product_6.a1;
-    const real_2 two_product_7 = two_product(s, e);
-    const real v = two_product_7.a0, ev = two_product_7.a1;
-    const real_2 two_product_8 = two_product(t, es);
-    const real w = two_product_8.a0, ew = two_product_8.a1;
-    const real_2 two_sum_9 = two_sum(q, p);
-    const real u = two_sum_9.a0, eu = two_sum_9.a1;
-    const real_2 two_sum_10 = two_sum(ep, eq);
-    const real a = two_sum_10.a0, ea = two_sum_10.a1;
-    const real_2 two_sum_11 = two_sum(v, w);
-    const real b = two_sum_11.a0, eb = two_sum_11.a1;
-    const real_2 two_sum_12 = two_sum(a, b);
-    const real c = two_sum_12.a0, ec = two_sum_12.a1;
-    const real_2 two_sum_13 = two_sum(eu, c);
-    const real d = two_sum_13.a0, ed = two_sum_13.a1;
-    const real low = es * e + s * ee + (ev + ew + (ea + eb + (ec + ed)));
-    const real_2 two_sum_14 = two_sum(u, -REAL(8.0) * (R - REAL(1.0)));
-    const real f = two_sum_14.a0, ef = two_sum_14.a1;
-    const real_2 two_sum_15 = two_sum(u, -REAL(4.0) * s);
-    const real g = two_sum_15.a0, eg = two_sum_15.a1;
-    return MAKE(real_3){f + (ef + d), g + (eg + d - REAL(4.0) * es), u + d + low};
+    const real_2 two_product_4 = two_product(s, t);
+    const real p = two_product_4.a0, ep = two_product_4.a1;
+    const real_2 two_product_5 = two_product(x, x);
+    const real q = two_product_5.a0, eq = two_product_5.a1;
+    const real_2 two_sum_6 = two_sum(q, p);
+    const real u = two_sum_6.a0, eu = two_sum_6.a1;
+    return u + (eu + (ep + eq + s * (et + ek) + t * es));
 }
 
 /* The start at a reduced state. */
 static inline Start start_at(real x, real y, real R, real arc_tolerance) {
-    const real_3 beyond_circles_1 = beyond_circles(x, y, R);
-    const real outer = beyond_circles_1.a0, inner = beyond_circles_1.a1, fold = beyond_circles_1.a2;
+    const real outer = beyond(x, y, R, REAL(2.0)), inner = beyond(x, y, R, -REAL(2.0)), fold = beyond(x, y,
+            REAL(2.0) - R, REAL(2.0));
     return MAKE(Start){x, y, R, arc_tolerance, outer, inner, fold};
 }
 
@@ -974,8 +962,8 @@ static inline real_2_real onto_axis(real x, real y, real end_, real arc_toleranc
 
 /* LSL: onto the axis at (-c, 0), straight to (-X, 0), X = sqrt(R (R + 2)), left for acos(1/(R + 1)).
  *
- * `y` is the ordinate of the start, with the opposite sign for RSL. `joins` says whether c >= X, decided as in the
- * selection of words; rounding may still make c - X negative.
+ * `y` is the ordinate of the start, with the opposite sign for RSL. `joins` says whether c >= X, decided by
+ * `exact.beyond` as in the selection of words; rounding may still make c - X negative.
  */
 static inline Extremal external_join(integer word, real y, const Start *start, bool joins) {
     const real R = start->R;
@@ -1126,9 +1114,10 @@ static inline Extremal lrl(const Start *start) {
     return MAKE(Extremal){WORD_LRL, first, exists ? REAL(0.0) : REAL_INFINITY, middle, last};
 }
 
-/* Left, straight, right, from inside a circle of R >= 2: rp <= R - 1, that is rp^2 - (R - 3)^2 <= 4 (R - 2). */
+/* Left, straight, right, from inside a circle of R >= 2: rp <= R - 1. */
 static inline Extremal lsr(const Start *start) {
-    return internal_join(WORD_LSR, start->y, start, start->fold <= REAL(4.0) * (start->R - REAL(2.0)));
+    return internal_join(WORD_LSR, start->y, start, beyond(start->x, start->y, -start->R, REAL(2.0)) <=
+            REAL(0.0));
 }
 
 /* Whether an extremal ends at the target. */
@@ -1881,11 +1870,11 @@ static inline WindSearch begin_search(const WindProblem *problem) {
             return search;
         }
     }
-    const integer each_side_1[2] = {1, -1};
+    const integer each_one_1[2] = {1, -1};
     for (int i_1 = 0; i_1 < 2; i_1++) {
-        const integer side = each_side_1[i_1];
-        if (problem->side != -side && is_on_circle(side, &scene)) {
-            search.best = start_on_circle(side, &scene);
+        const integer one = each_one_1[i_1];
+        if (problem->side != -one && is_on_circle(one, &scene)) {
+            search.best = start_on_circle(one, &scene);
         }
     }
     if (search.best.side != 0) {
@@ -2477,13 +2466,13 @@ static inline CellVisit next_leaf(integer leaf) {
 
 /* The search at the beginning of its next stage, on the other side; the result after the last one. */
 static inline void next_stage(WindSearch *search) {
-    const integer stage = search->stage + 1, side = -search->side;
+    const integer stage = search->stage + 1, one = -search->one;
     if (stage == ENDED) {
         end_search(search);
         return;
     }
     CellVisit visit = FIRST_CELL;
-    if (stage > COARSE_OTHER || search->sides == -side) {
+    if (stage > COARSE_OTHER || search->sides == -one) {
         const integer first = search->others.first, second = search->others.second, third =
                 search->others.third, fourth = search->others.fourth;
         visit = next_leaf((((first | second) | third) | fourth) != 0 ? -1 : shift_left(FIRST_CELLS, LEAF));
@@ -2491,7 +2480,7 @@ static inline void next_stage(WindSearch *search) {
     const Leaves new_1 = search->others;
     const Leaves new_2 = search->leaves;
     search->stage = stage;
-    search->side = side;
+    search->one = one;
     search->visit = visit;
     search->before = NO_LEAF_END;
     search->leaves = new_1;
@@ -2554,7 +2543,7 @@ static inline void refine_path(WindSearch *search) {
     if (search->stage == JOINING) {
         /* The better side is searched first, which shortens the search on the other side. */
         search->best = found;
-        search->side = found.side != 0 ? -found.side : -1;
+        search->one = found.side != 0 ? -found.side : -1;
         if (found.path.time > REAL(0.0)) {
             next_stage(search);
             return;
@@ -2590,14 +2579,14 @@ static inline WindCandidate best_of_joins(integer side, const WindScene *scene, 
 static inline void join_one_side(WindSearch *search) {
     WindCandidate best = search->best;
     const WindScene scene = search->scene;
-    const integer side = search->side;
-    if (search->sides != -side) {
-        best = best_of_joins(side, &scene, best);
+    const integer one = search->one;
+    if (search->sides != -one) {
+        best = best_of_joins(one, &scene, best);
     }
-    const Refinement refinement = side == 1 ? NO_REFINEMENT : begin_refinement(&best, TWO_PI / (real)JOINS, &scene);
+    const Refinement refinement = one == 1 ? NO_REFINEMENT : begin_refinement(&best, TWO_PI / (real)JOINS, &scene);
     const integer new_1 = search->left - 1;
     search->best = best;
-    search->side = -side;
+    search->one = -one;
     search->left = new_1;
     search->refinement = refinement;
     return;
@@ -3156,7 +3145,7 @@ static inline Leaves with_leaf(Leaves leaves, integer number) {
  * Cells are visited in the order of their phases, and halved as long as a word may join inside them early enough.
  */
 static inline void coarse_search(WindSearch *search) {
-    const integer side = search->side;
+    const integer one = search->one;
     const WindScene scene = search->scene;
     const WindCandidate best = search->best;
     CellVisit visit = search->visit;
@@ -3167,10 +3156,10 @@ static inline void coarse_search(WindSearch *search) {
     while (left > 0 && start.path.time == REAL_INFINITY && visit.number < shift_left(FIRST_CELLS, visit.level)) {
         left -= 1;
         const real_2 middle_of_1 = middle_of(visit);
-        integer words = words_inside(middle_of_1.a0, middle_of_1.a1, (visit.words & ALL_WORDS), side, &scene,
+        integer words = words_inside(middle_of_1.a0, middle_of_1.a1, (visit.words & ALL_WORDS), one, &scene,
                 best.path.time);
         if (words != 0 && visit.level >= COARSE) {
-            const integer_LeafEnd_JoinPoint examine_cell_2 = examine_cell(visit, words, side, &scene, &before,
+            const integer_LeafEnd_JoinPoint examine_cell_2 = examine_cell(visit, words, one, &scene, &before,
                     &best);
             words = examine_cell_2.a0;
             before = examine_cell_2.a1;
@@ -3187,7 +3176,7 @@ static inline void coarse_search(WindSearch *search) {
     search->leaves = leaves;
     search->left = left;
     if (start.path.time < REAL_INFINITY) {
-        search->refinement = refinement_from(&start, side, TWO_PI / (real)shift_left(FIRST_CELLS, LEAF));
+        search->refinement = refinement_from(&start, one, TWO_PI / (real)shift_left(FIRST_CELLS, LEAF));
         return;
     }
     if (visit.number < shift_left(FIRST_CELLS, visit.level)) {
@@ -3210,9 +3199,9 @@ static inline real time_tolerance(const WindCandidate *best, const WindScene *sc
     return WIND_TIE_TOLERANCE * (REAL(1.0) + scene->R + best->path.time);
 }
 
-/* The tolerance after `MOST_VISITS` cells: an upper bound on the time to hold the circle through `UNKNOWN_ARC`. */
+/* The tolerance after `MOST_VISITS` cells: an upper bound on the time to hold the circle through 2 pi/4096. */
 static inline real hold_tolerance(const WindScene *scene) {
-    return scene->R / (REAL(1.0) - length(scene->wx, scene->wy)) * UNKNOWN_ARC;
+    return scene->R / (REAL(1.0) - length(scene->wx, scene->wy)) * (TWO_PI / REAL(4096.0));
 }
 
 /* The two arcs of which the best path consists, up to rounding; `NO_CORNER` for another path. */
@@ -3421,7 +3410,7 @@ static inline real_WindCandidate compare_at_end(CellVisit visit, integer side, c
 
 /* The search after cells inside the leaves of one side that are left, until a path has to be refined. */
 static inline void fine_search(WindSearch *search) {
-    const integer side = search->side;
+    const integer one = search->one;
     const WindScene scene = search->scene;
     const WindCandidate best = search->best;
     const Leaves leaves = search->leaves;
@@ -3441,9 +3430,9 @@ static inline void fine_search(WindSearch *search) {
         const real tolerance = visits <= MOST_VISITS ? time_tolerance(&best, &scene) : hold_tolerance(&scene);
         const real sooner = best.path.time - tolerance;
         const real_2 middle_of_1 = middle_of(visit);
-        integer words = words_inside(middle_of_1.a0, middle_of_1.a1, (visit.words & ALL_WORDS), side, &scene,
+        integer words = words_inside(middle_of_1.a0, middle_of_1.a1, (visit.words & ALL_WORDS), one, &scene,
                 sooner);
-        if (words != 0 && side == best.side) {
+        if (words != 0 && one == best.side) {
             if (best.path.time < compared) {
                 corner = corner_of(&best, &scene);
                 compared = best.path.time;
@@ -3451,7 +3440,7 @@ static inline void fine_search(WindSearch *search) {
             words = words_beside_best(visit, words, &scene, &best, corner, sooner);
         }
         if (words != 0 && integer_modulo(LAST - visit.level, 2) == 0 && visit.level > LEAF) {
-            const real_WindCandidate compare_at_end_2 = compare_at_end(visit, side, &scene, &best);
+            const real_WindCandidate compare_at_end_2 = compare_at_end(visit, one, &scene, &best);
             const real earliest = compare_at_end_2.a0;
             start = compare_at_end_2.a1;
             cell = MAKE(OpenCell){words, earliest, tolerance};
@@ -3527,9 +3516,10 @@ static inline real bank_after(real roll_time_s, real rate_deg_s, real bank_deg, 
 static inline VehicleModel fly_as_declared(const VehicleModel *vehicle, real command_deg, real dt) {
     const integer revision = vehicle->revision;
     real bank_deg = vehicle->bank_deg;
+    const real rate_deg_s = vehicle->bank_rate_deg_s;
     const VehicleEstimates known = vehicle->estimates;
     bank_deg = bank_after(known.roll.time_s, known.roll.rate_deg_s, bank_deg, command_deg, dt);
-    return MAKE(VehicleModel){revision, bank_deg, known};
+    return MAKE(VehicleModel){revision, bank_deg, rate_deg_s, known};
 }
 
 /* The velocity of the air past the circle to plan with, and whether it differs from the declared one.
@@ -3583,6 +3573,13 @@ static inline real present_limit_deg(const Settings *settings, const VehicleEsti
     return max_real(declared_deg - known->overshoot_deg, min_real(least_deg, declared_deg));
 }
 
+/* Whether a roll response differs so much that delays of changes of bank must be computed again. */
+static inline bool is_changed(RollValues roll, RollValues before) {
+    const real time_s = before.time_s, lag_s = before.lag_s;
+    return real_fabs(roll.time_s - time_s) > ROLL_CHANGED * time_s || real_fabs(roll.rate_deg_s - before.rate_deg_s)
+            > ROLL_CHANGED * before.rate_deg_s || real_fabs(roll.lag_s - lag_s) > ROLL_CHANGED * time_s;
+}
+
 /* A bank in whole half degrees. */
 static inline integer half_degrees(real bank_deg) {
     return integer_of(real_ceil(REAL(2.0) * bank_deg - REAL(0.5)));
@@ -3593,95 +3590,118 @@ static inline real command_gain(real roll_time_s) {
     return min_real(max_real(roll_time_s / QUICKEST_S, REAL(1.0)), COMMAND_GAIN);
 }
 
-/* When a change of bank under `demand_deg` changes the turn rate, which is proportional to tan(bank).
- *
- * Let m be the missing bank, p the limit of the roll rate, and g how far the bank limit lies beyond the target. The
- * bank changes at the least of p, (m + g)/tau (the command is at the bank limit) and `command_gain` m/tau. As m
- * shrinks these apply in that order. The time at which m is left follows from each in closed form. The mean time at
- * which the parts of the change take effect, and its variance, are integrals over these three ranges, by Gauss's
- * rules.
- */
-static inline TurnOnset turn_onset(real roll_time_s, real rate_deg_s, real bank_deg, real target_deg, real
-        limit_deg) {
-    const real tau = roll_time_s, p = rate_deg_s, gain = command_gain(roll_time_s), m = real_fabs(target_deg -
-            bank_deg);
-    const real last_s = tau / gain;
-    const real g = max_real(limit_deg - (target_deg >= bank_deg ? target_deg : -target_deg), REAL(0.0));
-    /* The missing bank below which a demand is within the bank limit, and that at which the rate leaves its limit. */
-    const real unlimited = gain > REAL(1.0) ? g / (gain - REAL(1.0)) : REAL_INFINITY;
-    const bool is_instant = tau == REAL(0.0) && p == REAL_INFINITY;
-    if (is_instant || m == REAL(0.0) || m <= min_real(min_real(unlimited, p * last_s), SMALL_CHANGE_DEG)) {
-        return MAKE(TurnOnset){last_s, last_s * last_s};
-    }
-    const real slow = min_real(max_real(p * tau - g, p * last_s), m);
-    const real free = min_real(unlimited, slow);
-    const real backward = target_deg > bank_deg ? -REAL(1.0) : REAL(1.0);
-    real time_s = (m - slow) / p;
-    real whole = REAL(0.0), mean = REAL(0.0), square = REAL(0.0);
-    real tangent, share, at_s;
-    if (slow < m) {
-        const real each_x_1[3] = {LEGENDRE_POINTS.a0, LEGENDRE_POINTS.a1, LEGENDRE_POINTS.a2};
-        const real each_w_1[3] = {LEGENDRE_WEIGHTS.a0, LEGENDRE_WEIGHTS.a1, LEGENDRE_WEIGHTS.a2};
-        for (int i_1 = 0; i_1 < 3; i_1++) {
-            const real x = each_x_1[i_1];
-            const real w = each_w_1[i_1];
-            tangent = real_tan((target_deg + backward * (slow + x * (m - slow))) * REAL(0.017453292519943295));
-            share = w * (m - slow) * (REAL(1.0) + tangent * tangent);
-            at_s = (REAL(1.0) - x) * time_s;
-            whole = whole + share;
-            mean = mean + share * at_s;
-            square = square + share * at_s * at_s;
-        }
-    }
-    if (free < slow) {
-        /* In the square of a variable the logarithm is smooth where it begins. */
-        const real each_x_2[3] = {LEGENDRE_POINTS.a0, LEGENDRE_POINTS.a1, LEGENDRE_POINTS.a2};
-        const real each_w_2[3] = {LEGENDRE_WEIGHTS.a0, LEGENDRE_WEIGHTS.a1, LEGENDRE_WEIGHTS.a2};
-        for (int i_2 = 0; i_2 < 3; i_2++) {
-            const real x = each_x_2[i_2];
-            const real w = each_w_2[i_2];
-            const real left = free + x * x * (slow - free);
-            tangent = real_tan((target_deg + backward * left) * REAL(0.017453292519943295));
-            at_s = time_s + tau * real_log((slow + g) / (left + g));
-            share = REAL(2.0) * x * w * (slow - free) * (REAL(1.0) + tangent * tangent);
-            whole = whole + share;
-            mean = mean + share * at_s;
-            square = square + share * at_s * at_s;
-        }
-    }
-    if (free > REAL(0.0)) {
-        time_s += tau * real_log((slow + g) / (free + g));
-        const real each_x_3[3] = {LAGUERRE_POINTS.a0, LAGUERRE_POINTS.a1, LAGUERRE_POINTS.a2};
-        const real each_kept_3[3] = {LAGUERRE_SHARES.a0, LAGUERRE_SHARES.a1, LAGUERRE_SHARES.a2};
-        const real each_w_3[3] = {LAGUERRE_WEIGHTS.a0, LAGUERRE_WEIGHTS.a1, LAGUERRE_WEIGHTS.a2};
-        for (int i_3 = 0; i_3 < 3; i_3++) {
-            const real x = each_x_3[i_3];
-            const real kept = each_kept_3[i_3];
-            const real w = each_w_3[i_3];
-            tangent = real_tan((target_deg + backward * free * kept) * REAL(0.017453292519943295));
-            at_s = time_s + x * last_s;
-            share = w * free * (REAL(1.0) + tangent * tangent);
-            whole = whole + share;
-            mean = mean + share * at_s;
-            square = square + share * at_s * at_s;
-        }
-    }
-    const real lead_s = mean / whole;
-    return MAKE(TurnOnset){lead_s, max_real(square / whole - lead_s * lead_s, REAL(0.0))};
+/* The largest change of bank that counts as infinitely small: its rate is not limited. */
+static inline real small_change_deg(RollValues roll) {
+    return min_real(SMALL_CHANGE_DEG, roll.rate_deg_s * roll.time_s / command_gain(roll.time_s));
 }
 
-/* `turn_onset` for whole half degrees. */
-static inline TurnOnset rounded_onset(real roll_time_s, real rate_deg_s, real bank_deg, real target_deg, real
-        limit_deg) {
-    const real begin_deg = REAL(0.5) * (real)half_degrees(bank_deg), end_deg = REAL(0.5) *
-            (real)half_degrees(target_deg);
-    return turn_onset(roll_time_s, rate_deg_s, begin_deg, end_deg, limit_deg);
+/* By how much less is commanded for each degree per second of the bank rate, seconds.
+ *
+ * With the gain K the bank then obeys tau lag bank'' + (tau + this) bank' + K (bank - target) = 0, with the damping
+ * `DAMPING` at least. It is 0 without a lag.
+ */
+static inline real rate_gain_s(RollValues roll) {
+    return max_real(REAL(2.0) * DAMPING * real_sqrt(command_gain(roll.time_s) * roll.time_s * roll.lag_s) -
+            roll.time_s, REAL(0.0));
+}
+
+/* When a small change of bank takes effect. */
+static inline TurnOnset small_onset(RollValues roll) {
+    const real gain = command_gain(roll.time_s);
+    const real first_s = (roll.time_s + rate_gain_s(roll)) / gain;
+    return MAKE(TurnOnset){first_s, max_real(first_s * first_s - REAL(2.0) * roll.time_s * roll.lag_s / gain,
+            REAL(0.0))};
 }
 
 /* `value`, limited to the range from -`limit` to `limit`. */
 static inline real clip(real value, real limit) {
     /* Comparisons take a third of the time of `min` and `max`, and a law clips several values in each step. */
     return value > limit ? limit : value < -limit ? -limit : value;
+}
+
+/* The bank after a short time under a constant command; exact without a lag of the bank rate. */
+static inline Bank roll_after(RollValues roll, Bank now, real command_deg, real time_s) {
+    if (roll.lag_s == REAL(0.0) || time_s == REAL(0.0)) {
+        return MAKE(Bank){bank_after(roll.time_s, roll.rate_deg_s, now.bank_deg, command_deg, time_s),
+                now.rate_deg_s};
+    }
+    const real kept = real_exp(-time_s / roll.lag_s);
+    const real wanted_deg_s = (command_deg - now.bank_deg - REAL(0.5) * time_s * now.rate_deg_s) / roll.time_s;
+    const real rate_deg_s = clip(wanted_deg_s + kept * (now.rate_deg_s - wanted_deg_s), roll.rate_deg_s);
+    const real share = roll.lag_s / time_s - kept / (REAL(1.0) - kept);
+    return MAKE(Bank){now.bank_deg + time_s * (rate_deg_s + share * (now.rate_deg_s - rate_deg_s)), rate_deg_s};
+}
+
+/* The delay of a small change of bank from `beyond_deg` beyond the target, in degrees of bank, not in turn rates.
+ *
+ * With a = tau lag/K and b = (tau + rate gain)/K the missing bank m obeys a m'' + b m' + m = 0, so that its
+ * integral over time is b m + a m', and that of m t is b times this less a m. A demand at the bank limit has the
+ * gain 1.
+ */
+static inline TurnDelay linear_delay(RollValues roll, real beyond_deg, real rate_deg_s, bool is_limited) {
+    const real gain = is_limited ? REAL(1.0) : command_gain(roll.time_s);
+    const real a = roll.time_s * roll.lag_s / gain, b = (roll.time_s + (is_limited ? REAL(0.0) : rate_gain_s(roll)))
+            / gain;
+    const real missing_s = -b * beyond_deg - a * rate_deg_s;
+    return MAKE(TurnDelay){missing_s, b * missing_s + a * beyond_deg};
+}
+
+/* How a change of bank under `demand_deg` delays a turn.
+ *
+ * The turn rate is proportional to tan(bank). The change is flown in steps until it is small; the rest is linear.
+ */
+static inline TurnDelay turn_delay(RollValues roll, Bank now, real target_deg, real limit_deg) {
+    const real gain = command_gain(roll.time_s), braking_s = rate_gain_s(roll), tangent = real_tan(target_deg *
+            REAL(0.017453292519943295));
+    real missing_s = REAL(0.0), moment_s2 = REAL(0.0), time_s = REAL(0.0);
+    bool is_limited = true;
+    integer left = STEPS;
+    const real small_deg = small_change_deg(roll);
+    const real dt = (real_fabs(target_deg - now.bank_deg) / roll.rate_deg_s + SETTLING * (roll.time_s + braking_s))
+            / (real)STEPS;
+    while (dt > REAL(0.0) && left > 0) {
+        /* The demand at half time. */
+        const real there_deg = now.bank_deg + REAL(0.5) * dt * now.rate_deg_s;
+        const real change_deg = gain * (target_deg - there_deg) - braking_s * now.rate_deg_s;
+        is_limited = real_fabs(there_deg + change_deg) > limit_deg;
+        if (!is_limited && real_fabs(target_deg - now.bank_deg) + roll.lag_s * real_fabs(now.rate_deg_s) <
+                small_deg) {
+            break;
+        }
+        const Bank after = roll_after(roll, now, clip(there_deg + change_deg, limit_deg), dt);
+        const real part_s = dt * (tangent - real_tan(REAL(0.5) * (now.bank_deg + after.bank_deg) *
+                REAL(0.017453292519943295)));
+        missing_s = missing_s + part_s;
+        moment_s2 = moment_s2 + part_s * (time_s + REAL(0.5) * dt);
+        const real rate_deg_s = roll.lag_s > REAL(0.0) ? after.rate_deg_s : (after.bank_deg - now.bank_deg) / dt;
+        now = MAKE(Bank){after.bank_deg, rate_deg_s};
+        time_s = time_s + dt;
+        left = left - 1;
+    }
+    const real slope = (REAL(1.0) + tangent * tangent) * REAL(0.017453292519943295);
+    const TurnDelay rest = linear_delay(roll, now.bank_deg - target_deg, now.rate_deg_s, is_limited);
+    missing_s += slope * rest.missing_s;
+    return MAKE(TurnDelay){missing_s, moment_s2 + slope * (time_s * rest.missing_s + rest.moment_s2)};
+}
+
+/* When a change of bank from rest, under `demand_deg`, changes the turn rate. */
+static inline TurnOnset turn_onset(RollValues roll, real bank_deg, real target_deg, real limit_deg) {
+    const real change_deg = target_deg - bank_deg;
+    const bool is_limited = real_fabs(bank_deg + command_gain(roll.time_s) * change_deg) > limit_deg;
+    if (change_deg == REAL(0.0) || (real_fabs(change_deg) <= small_change_deg(roll) && !is_limited)) {
+        return small_onset(roll);
+    }
+    const TurnDelay delay = turn_delay(roll, MAKE(Bank){bank_deg, REAL(0.0)}, target_deg, limit_deg);
+    const real change = real_tan(target_deg * REAL(0.017453292519943295)) - real_tan(bank_deg *
+            REAL(0.017453292519943295));
+    const real lead_s = delay.missing_s / change;
+    return MAKE(TurnOnset){lead_s, max_real(REAL(2.0) * delay.moment_s2 / change - lead_s * lead_s, REAL(0.0))};
+}
+
+/* `turn_onset` for whole half degrees. */
+static inline TurnOnset rounded_onset(RollValues roll, real bank_deg, real target_deg, real limit_deg) {
+    return turn_onset(roll, REAL(0.5) * (real)half_degrees(bank_deg), REAL(0.5) * (real)half_degrees(target_deg),
+            limit_deg);
 }
 
 /* What follows from the estimates of the vehicle, after other estimates. */
@@ -3693,18 +3713,15 @@ static inline Limits limits_of(const Settings *settings, const VehicleModel *veh
     const real east = planned_wind_1.a1, north = planned_wind_1.a2;
     const real widest_m = widest_turn_m(V, R, east, north);
     const real limit_deg = present_limit_deg(settings, &known, widest_m);
-    real roll_time_s = before->roll_time_s, rate_deg_s = before->roll_rate_deg_s;
-    const bool is_other = real_fabs(known.roll.time_s - roll_time_s) > ROLL_CHANGED * roll_time_s ||
-            real_fabs(known.roll.rate_deg_s - rate_deg_s) > ROLL_CHANGED * rate_deg_s || limit_deg !=
-            before->limit_deg;
+    RollValues roll = before->roll;
+    const bool is_other = is_changed(known.roll, roll) || limit_deg != before->limit_deg;
     if (is_other) {
-        roll_time_s = known.roll.time_s;
-        rate_deg_s = known.roll.rate_deg_s;
+        roll = known.roll;
     }
     const real tightest_m = radius_at_bank(known.turn_airspeed_m_s, limit_deg) / known.turn_ratio;
     real lead_s = before->lead_s;
     if (is_other) {
-        lead_s = rounded_onset(roll_time_s, rate_deg_s, REAL(0.0), limit_deg, limit_deg).lead_s;
+        lead_s = rounded_onset(roll, REAL(0.0), limit_deg, limit_deg).lead_s;
     }
     const real turned = lead_s * V / tightest_m;
     const real reserve = settings->reserve * (REAL(1.0) + known.turns_unknown + ROLL_RESERVE * turned);
@@ -3714,12 +3731,11 @@ static inline Limits limits_of(const Settings *settings, const VehicleModel *veh
             half_degrees(hold_deg);
     real reversal_s2 = before->reversal_s2;
     if (is_other || planned != before->planned_half_deg || hold != before->hold_half_deg) {
-        reversal_s2 = turn_onset(roll_time_s, rate_deg_s, -REAL(0.5) * (real)planned, REAL(0.5) * (real)hold,
-                limit_deg).variance_s2;
+        reversal_s2 = turn_onset(roll, -REAL(0.5) * (real)planned, REAL(0.5) * (real)hold, limit_deg).variance_s2;
     }
-    return MAKE(Limits){vehicle->revision, wind_differs, east, north, roll_time_s, rate_deg_s, limit_deg,
-            MAKE(TurnLimits){V, tightest_m, planned_m}, hold_deg, hold, planned, lead_s, reversal_s2, REAL(0.5) *
-            reversal_s2 * V * V * (REAL(1.0) / planned_m + REAL(1.0) / R), lead_s + DELAY_SHARE * known.delay_s};
+    return MAKE(Limits){vehicle->revision, wind_differs, east, north, roll, limit_deg, MAKE(TurnLimits){V,
+            tightest_m, planned_m}, hold_deg, hold, planned, lead_s, reversal_s2, REAL(0.5) * reversal_s2 * V * V *
+            (REAL(1.0) / planned_m + REAL(1.0) / R), lead_s + DELAY_SHARE * known.delay_s};
 }
 
 /* The average before the first measurement. */
@@ -3756,7 +3772,7 @@ static inline Memory first_memory(Rings *rings, const Settings *settings, const 
     const Observer observer = first_observer(rings, settings->smoothing_s);
     const BankHistory history = constant_history(rings, vehicle->bank_deg);
     return MAKE(Memory){MAKE(Sensing){FIRST_CLOCK, observer, history, limits, NO_ESTIMATE, REAL(0.0), REAL(0.0),
-            false}, NO_PLAN, no_path(rings), NO_LEADS, NO_RESPONSE, NO_ENTRY_SEARCH, REAL(0.0),
+            REAL(0.0), false}, NO_PLAN, no_path(rings), NO_LEADS, NO_RESPONSE, NO_ENTRY_SEARCH, REAL(0.0),
             MAKE(LawCommand){REAL(0.0), REAL(0.0), NO_DATA, REAL_NAN, settings->side, NO_DATA, REAL_NAN},
             REAL(0.0)};
 }
@@ -4179,23 +4195,26 @@ static inline void sense(Rings *rings, Sensing *sensing, const Settings *setting
     Estimate present = sensing->present;
     real elapsed_s = sensing->elapsed_s;
     const real error_deg = sensing->model_error_deg;
+    const real rate_deg_s = vehicle->bank_rate_deg_s;
     if (step_s > REAL(0.0)) {
         clock = clock_advance(&clock, step_s);
         elapsed_s = elapsed_s + step_s;
         history = record_bank(history, vehicle->bank_deg, step_s, settings->covered_s);
     }
     if (!is_usable(measurement)) {
-        *sensing = MAKE(Sensing){clock, observer, history, limits, present, elapsed_s, error_deg, false};
+        *sensing = MAKE(Sensing){clock, observer, history, limits, present, rate_deg_s, elapsed_s, error_deg,
+                false};
         return;
     }
     if (measurement->time_s == clock.time_s) {
         if (present.airspeed_m_s == REAL(0.0) || clock.since_s > EXTRAPOLATED_S) {
-            *sensing = MAKE(Sensing){clock, observer, history, limits, present, elapsed_s, error_deg, false};
+            *sensing = MAKE(Sensing){clock, observer, history, limits, present, rate_deg_s, elapsed_s, error_deg,
+                    false};
             return;
         }
         const Estimate stored_1 = estimate_with_bank(&present, history.current_deg + error_deg);
         present = estimate_after(&stored_1, elapsed_s);
-        *sensing = MAKE(Sensing){clock, observer, history, limits, present, REAL(0.0), error_deg, true};
+        *sensing = MAKE(Sensing){clock, observer, history, limits, present, rate_deg_s, REAL(0.0), error_deg, true};
         return;
     }
     const bool is_first = clock.time_s == -REAL_INFINITY;
@@ -4203,7 +4222,8 @@ static inline void sense(Rings *rings, Sensing *sensing, const Settings *setting
     clock = check_stamp_2.a0;
     const bool is_new = check_stamp_2.a1;
     if (!is_new) {
-        *sensing = MAKE(Sensing){clock, observer, history, limits, present, elapsed_s, error_deg, false};
+        *sensing = MAKE(Sensing){clock, observer, history, limits, present, rate_deg_s, elapsed_s, error_deg,
+                false};
         return;
     }
     if (is_first) {
@@ -4221,7 +4241,7 @@ static inline void sense(Rings *rings, Sensing *sensing, const Settings *setting
     const State stored_3 = remove_bias(&known, measurement);
     observer = observe(rings, &observer, &stored_3, bank_deg, settings->smoothing_s, turning);
     present = estimate_at_present(&observer.estimate, history, known.delay_s);
-    *sensing = MAKE(Sensing){clock, observer, history, limits, present, REAL(0.0), present.bank_deg -
+    *sensing = MAKE(Sensing){clock, observer, history, limits, present, rate_deg_s, REAL(0.0), present.bank_deg -
             history.current_deg, true};
     return;
 }
@@ -4371,8 +4391,7 @@ static inline bool is_search_due(const Clock *clock, const Plan *plan) {
 
 /* The delay of a change of bank. */
 static inline real lead_s(const Limits *limits, real bank_deg, real target_deg) {
-    return rounded_onset(limits->roll_time_s, limits->roll_rate_deg_s, bank_deg, target_deg,
-            limits->limit_deg).lead_s;
+    return rounded_onset(limits->roll, bank_deg, target_deg, limits->limit_deg).lead_s;
 }
 
 /* The search for the fastest entry from a state, before its first step. */
@@ -4416,8 +4435,8 @@ static inline void begin_first_plan(Memory *memory, const Settings *settings) {
 
 /* Whether delays of changes of bank are others than before. */
 static inline bool is_other_roll(const Limits *limits, const Limits *before) {
-    const bool same = limits->roll_time_s == before->roll_time_s && limits->roll_rate_deg_s ==
-            before->roll_rate_deg_s;
+    const RollValues a = limits->roll, b = before->roll;
+    const bool same = a.time_s == b.time_s && a.rate_deg_s == b.rate_deg_s && a.lag_s == b.lag_s;
     return !(same && limits->limit_deg == before->limit_deg);
 }
 
@@ -4439,27 +4458,63 @@ static inline integer half_deg_on(const Limits *limits, const Route *route, cons
     return -piece->u * half_degrees(bank_at_rate(rate, V));
 }
 
-/* The delays of changes from a bank to those of the pieces of a route; those that are known are not recomputed. */
-static inline Leads leads_to(const Limits *limits, const Leads *leads, real bank_deg, const Route *route) {
-    const integer bank = half_degrees(bank_deg), side = route->side, hold = limits->hold_half_deg, planned =
-            limits->planned_half_deg;
-    const integer u3 = last_control(route);
+/* How long the present bank rate goes on in effect, seconds: so far ahead is the bank of a small change. */
+static inline real coasting_s(RollValues roll) {
+    return roll.lag_s > REAL(0.0) ? roll.time_s * roll.lag_s / (roll.time_s + rate_gain_s(roll)) : REAL(0.0);
+}
+
+/* The time from now to the end of a piece at which the bank of another must be commanded. */
+static inline real early_s(RollValues roll, Bank now, real limit_deg, integer first, real first_missing_s, integer
+        second) {
+    if (first == second) {
+        return REAL(0.0);
+    }
+    const real missing_s = turn_delay(roll, now, REAL(0.5) * (real)second, limit_deg).missing_s;
+    return (first_missing_s - missing_s) / (real_tan(REAL(0.5) * (real)first * REAL(0.017453292519943295)) -
+            real_tan(REAL(0.5) * (real)second * REAL(0.017453292519943295)));
+}
+
+/* How changes from a bank to those of the pieces of a route are delayed; what is known is not computed again. */
+static inline Leads leads_to(const Limits *limits, const Leads *leads, Bank now, const Route *route) {
+    const integer bank = half_degrees(now.bank_deg), rate = half_degrees(now.rate_deg_s / RATE_STEPS), u3 =
+            last_control(route);
     const integer first = half_deg_on(limits, route, &route->current), second = half_deg_on(limits, route,
             &route->second);
-    const integer last = u3 == ABSENT ? side * hold : -u3 * planned;
-    if (leads->bank == bank && leads->current == first && leads->next == second && leads->last == last) {
+    const integer last = u3 == ABSENT ? route->side * limits->hold_half_deg : -u3 * limits->planned_half_deg;
+    if (leads->bank == bank && leads->rate == rate && leads->current == first && leads->next == second &&
+            leads->last == last) {
         return (*leads);
     }
-    const real time_s = limits->roll_time_s, rate_deg_s = limits->roll_rate_deg_s, limit_deg =
-            limits->limit_deg, begin_deg = REAL(0.5) * (real)bank;
-    const real first_s = turn_onset(time_s, rate_deg_s, begin_deg, REAL(0.5) * (real)first, limit_deg).lead_s;
-    const real second_s = second == first ? first_s : turn_onset(time_s, rate_deg_s, begin_deg, REAL(0.5) *
-            (real)second, limit_deg).lead_s;
-    if (last == first || last == second) {
-        return MAKE(Leads){bank, first, second, last, first_s, second_s, last == first ? first_s : second_s};
+    const RollValues roll = limits->roll;
+    const real limit_deg = limits->limit_deg;
+    now = MAKE(Bank){REAL(0.5) * (real)bank, REAL(0.5) * RATE_STEPS * (real)rate};
+    const real there = real_tan(now.bank_deg * REAL(0.017453292519943295));
+    const real first_s = small_onset(roll).lead_s;
+    const real first_missing_s = turn_delay(roll, now, REAL(0.5) * (real)first, limit_deg).missing_s;
+    const real tangent = real_tan(REAL(0.5) * (real)first * REAL(0.017453292519943295));
+    /* Where the bank goes without a command. */
+    const real coasted_deg = clip(now.bank_deg + coasting_s(roll) * now.rate_deg_s, limit_deg);
+    real current_s = first_s;
+    if (real_fabs(REAL(0.5) * (real)first - coasted_deg) > SMALL_CHANGE_DEG) {
+        current_s = max_real(first_missing_s / (tangent - real_tan(coasted_deg * REAL(0.017453292519943295))),
+                REAL(0.5) * first_s);
+    } else if (rate == 0 && first != bank) {
+        current_s = first_missing_s / (tangent - there);
     }
-    const real last_s = turn_onset(time_s, rate_deg_s, begin_deg, REAL(0.5) * (real)last, limit_deg).lead_s;
-    return MAKE(Leads){bank, first, second, last, first_s, second_s, last_s};
+    const real more = current_s > REAL(0.0) && first != bank ? tangent - first_missing_s / current_s - there :
+            REAL(0.0);
+    const real next_s = early_s(roll, now, limit_deg, first, first_missing_s, second) - current_s;
+    const real last_s = early_s(roll, now, limit_deg, first, first_missing_s, last) - current_s;
+    return MAKE(Leads){bank, rate, first, second, last, current_s, more, next_s, last_s};
+}
+
+/* The estimate with a turn rate that is larger by `more` g/V, positive to the right. */
+static inline Estimate turning_more(const Estimate *estimate, real more) {
+    const real V = estimate->airspeed_m_s;
+    const real rate = estimate->turn_rate - estimate->turning.ratio * STANDARD_GRAVITY_M_S2 * more / V;
+    Estimate changed_1 = (*estimate);
+    changed_1.turn_rate = rate;
+    return changed_1;
 }
 
 /* The time left of the current piece at a state; 0 on the circle.
@@ -4484,10 +4539,10 @@ static inline real remaining_s(const Route *route, const RelativeState *state, r
 
 /* How long before its end the current piece must end, since the next bank takes effect with a delay. */
 static inline real early_end_s(const Route *route, const Leads *leads) {
-    real early_s = leads->next_s - leads->current_s;
+    real early_s = leads->next_s;
     if (route->second.u == 0 && route->third.u != ABSENT && route->third.u != route->current.u) {
         /* A straight line between opposite turns may be shorter than the reversal, which then begins before its end. */
-        early_s = max_real(early_s, leads->last_s - leads->current_s - REAL(0.5) * route->second.time_s);
+        early_s = max_real(early_s, leads->last_s - REAL(0.5) * route->second.time_s);
     }
     return max_real(early_s, REAL(0.0));
 }
@@ -4565,17 +4620,18 @@ static inline void advance_plan(Memory *memory, const Settings *settings) {
     RelativeState state;
     real early_s;
     while (true) {
-        leads = leads_to(&limits, &leads, estimate.bank_deg, &route);
-        const Estimate stored_1 = estimate_after(&estimate, leads.current_s);
-        state = relative_state(settings, &stored_1);
+        leads = leads_to(&limits, &leads, MAKE(Bank){estimate.bank_deg, memory->sensing.bank_rate_deg_s}, &route);
+        const Estimate stored_1 = turning_more(&estimate, leads.more);
+        const Estimate stored_2 = estimate_after(&stored_1, leads.current_s);
+        state = relative_state(settings, &stored_2);
         left_s = remaining_s(&route, &state, left_s);
         early_s = early_end_s(&route, &leads);
         if (is_holding(&route) || left_s > early_s + ROUNDING_S) {
             break;
         }
-        const GivenPath_Route next_on_2 = next_on(path, &route);
-        path = next_on_2.a0;
-        route = next_on_2.a1;
+        const GivenPath_Route next_on_3 = next_on(path, &route);
+        path = next_on_3.a0;
+        route = next_on_3.a1;
         left_s = route.current.time_s;
     }
     if (is_holding(&route)) {
@@ -4587,9 +4643,9 @@ static inline void advance_plan(Memory *memory, const Settings *settings) {
         join_s = state.time_s + left_s + later_s(&route);
         if (path.total > 0) {
             /* A given path stays where it is over the ground: in wind it does not drift on where it is flown late. */
-            Route changed_3 = route;
-            by_clock(&changed_3, join_s - planned_join_s);
-            route = changed_3;
+            Route changed_4 = route;
+            by_clock(&changed_4, join_s - planned_join_s);
+            route = changed_4;
             planned_join_s = join_s;
         }
     }
@@ -5020,11 +5076,13 @@ static inline real_2 target_bank(const Settings *settings, const Memory *memory,
  *
  * It lies beyond the target, but never beyond the bank limit.
  */
-static inline real demand_deg(real roll_time_s, real bank_deg, real target_deg, real limit_deg) {
-    if (roll_time_s == REAL(0.0)) {
+static inline real demand_deg(RollValues roll, Bank now, real target_deg, real limit_deg) {
+    if (roll.time_s == REAL(0.0)) {
         return target_deg;
     }
-    return clip(bank_deg + command_gain(roll_time_s) * (target_deg - bank_deg), limit_deg);
+    const real change_deg = command_gain(roll.time_s) * (target_deg - now.bank_deg) - rate_gain_s(roll) *
+            now.rate_deg_s;
+    return clip(now.bank_deg + change_deg, limit_deg);
 }
 
 /* The phase in which a control is flown; on the circle, which follows the last control, if that is absent. */
@@ -5044,7 +5102,8 @@ static APART void conclude(Memory *memory, const Settings *settings, const Vehic
     real target_deg = target_bank_1.a0;
     const real trim = target_bank_1.a1;
     target_deg = clip(target_deg, limits.limit_deg);
-    real bank_deg = demand_deg(vehicle->estimates.roll.time_s, present.bank_deg, target_deg, limits.limit_deg);
+    const Bank now = MAKE(Bank){present.bank_deg, memory->sensing.bank_rate_deg_s};
+    real bank_deg = demand_deg(vehicle->estimates.roll, now, target_deg, limits.limit_deg);
     bank_deg = clip(bank_deg, settings->command_limit_deg);
     const Route route = memory->plan.route;
     const LawCommand command = MAKE(LawCommand){turn_rate_deg_s(&vehicle->estimates, bank_deg), bank_deg,
@@ -5201,7 +5260,7 @@ int loiter_law_begin(loiter_law *law, const loiter_law_config *c) {
     if (status != LOITER_OK) {
         return status;
     }
-    const RollValues roll = {c->roll_time_s, c->roll_rate_deg_s};
+    const RollValues roll = {c->roll_time_s, c->roll_rate_deg_s, REAL(0.0)};
     const VehicleEstimates declared = {roll,
                                        c->delay_s,
                                        REAL(1.0),
@@ -5231,7 +5290,7 @@ int loiter_law_begin(loiter_law *law, const loiter_law_config *c) {
                                    REAL(0.0),
                                    max_real(REAL(2.0), c->delay_s),
                                    c->search_steps};
-    law->vehicle = MAKE(VehicleModel){0, REAL(0.0), declared};
+    law->vehicle = MAKE(VehicleModel){0, REAL(0.0), REAL(0.0), declared};
     law->begin_us = 0;
     law->memory = first_memory(&law->rings, &law->settings, &law->vehicle);
     return LOITER_OK;
@@ -5295,7 +5354,7 @@ static void step_with(loiter_law *law, const loiter_measurement *m, real dt_s, l
 
 int loiter_law_step_known(loiter_law *law, const loiter_measurement *measurement, loiter_real dt_s,
                           loiter_command *command) {
-    if (!is_step(dt_s)) {
+    if (!(dt_s > REAL(0.0) && dt_s <= (real)LOITER_LONGEST_STEP_S)) {
         return LOITER_BAD_STEP;
     }
     step_with(law, measurement, dt_s, command);
@@ -5303,7 +5362,7 @@ int loiter_law_step_known(loiter_law *law, const loiter_measurement *measurement
 }
 
 int loiter_law_step(loiter_law *law, const loiter_measurement *measurement, loiter_real dt_s, loiter_command *command) {
-    if (is_step(dt_s)) {
+    if (dt_s > REAL(0.0) && dt_s <= (real)LOITER_LONGEST_STEP_S) {
         law->vehicle = fly_as_declared(&law->vehicle, law->memory.command.bank_deg, law->memory.step_s);
     }
     return loiter_law_step_known(law, measurement, dt_s, command);

@@ -6,7 +6,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 99b4751633e24457735a6e52f6504c3e230ef34edf2ed719f5d12849c2374e9d
+ * SHA-256 of the source: 251dc02c22de7602c13ab2226f4a491fcb4b7416496bcad7d5774a558468c767
  */
 #ifndef LOITER_ONBOARD_H
 #define LOITER_ONBOARD_H
@@ -126,7 +126,7 @@ typedef struct { loiter_integer stage, side; loiter_real width; loiter_JoinPoint
         words; bool bisect; loiter_integer steps, enclosures; } loiter_Refinement;
 typedef struct { loiter_integer words; loiter_real earliest, tolerance; } loiter_OpenCell;
 typedef struct { loiter_integer status, side, word; loiter_real t1, t2, t3, azimuth, miss; } loiter_WindEntry;
-typedef struct { loiter_integer stage, sides, side; loiter_WindScene scene; loiter_WindCandidate best;
+typedef struct { loiter_integer stage, sides, one; loiter_WindScene scene; loiter_WindCandidate best;
         loiter_EntryBeside beside; loiter_CellVisit visit; loiter_LeafEnd before; loiter_Leaves leaves, others;
         loiter_Corner corner; loiter_real compared; loiter_integer visits; loiter_Refinement refinement;
         loiter_OpenCell cell; loiter_integer left; loiter_WindEntry entry; } loiter_WindSearch;
@@ -192,12 +192,12 @@ typedef struct {
 typedef struct { loiter_real east_m, north_m, radius_m; loiter_integer side; loiter_real velocity_east_m_s,
         velocity_north_m_s, wind_east_m_s, wind_north_m_s, limit_deg, command_limit_deg, gain, reserve, smoothing_s,
         negligible_wind, covered_s; loiter_integer search_steps; } loiter_Settings;
-typedef struct { loiter_real time_s, rate_deg_s; } loiter_RollValues;
+typedef struct { loiter_real time_s, rate_deg_s, lag_s; } loiter_RollValues;
 typedef struct { loiter_RollValues roll; loiter_real delay_s, turn_ratio, quick_turn_ratio, course_lead_s,
         wind_east_m_s, wind_north_m_s, airspeed_m_s, turn_airspeed_m_s, overshoot_deg, turns_unknown,
         heading_bias_deg, bank_bias_deg; } loiter_VehicleEstimates;
-typedef struct { loiter_integer revision; loiter_real bank_deg; loiter_VehicleEstimates estimates; }
-        loiter_VehicleModel;
+typedef struct { loiter_integer revision; loiter_real bank_deg, bank_rate_deg_s; loiter_VehicleEstimates estimates;
+        } loiter_VehicleModel;
 typedef struct { loiter_real time_s, since_s, gap_s, jump_s, first_s, latest_s; } loiter_Clock;
 typedef struct { loiter_real time_s, square; } loiter_Difference;
 typedef struct { loiter_real near_square, far_square, known_s; } loiter_AlongFlight;
@@ -215,11 +215,12 @@ typedef struct { loiter_real end_s, bank_deg, integral; } loiter_BankEntry;
 typedef struct { loiter_BankEntry at[128]; } loiter_BankEntry_ring_128;
 typedef struct { loiter_real current_deg; loiter_BankEntry_ring_128 *entries; } loiter_BankHistory;
 typedef struct { loiter_real airspeed_m_s, tightest_m, planned_m; } loiter_TurnLimits;
-typedef struct { loiter_integer revision; bool wind_differs; loiter_real wind_east_m_s, wind_north_m_s, roll_time_s,
-        roll_rate_deg_s, limit_deg; loiter_TurnLimits turns; loiter_real hold_deg; loiter_integer hold_half_deg,
-        planned_half_deg; loiter_real lead_s, reversal_s2, reversal_m, lag_s; } loiter_Limits;
+typedef struct { loiter_integer revision; bool wind_differs; loiter_real wind_east_m_s, wind_north_m_s;
+        loiter_RollValues roll; loiter_real limit_deg; loiter_TurnLimits turns; loiter_real hold_deg; loiter_integer
+        hold_half_deg, planned_half_deg; loiter_real lead_s, reversal_s2, reversal_m, lag_s; } loiter_Limits;
 typedef struct { loiter_Clock clock; loiter_Observer observer; loiter_BankHistory history; loiter_Limits limits;
-        loiter_Estimate present; loiter_real elapsed_s, model_error_deg; bool is_known; } loiter_Sensing;
+        loiter_Estimate present; loiter_real bank_rate_deg_s, elapsed_s, model_error_deg; bool is_known; }
+        loiter_Sensing;
 typedef struct { loiter_integer u; loiter_real x, y, c, s, end_x, end_y, time_s, radius_m; } loiter_RoutePiece;
 typedef struct { loiter_integer side; loiter_RoutePiece current, second, third; loiter_real more_s; loiter_integer
         last_u; loiter_real start_s, turn_radius_m, speed_m_s, wind_east_m_s, wind_north_m_s; } loiter_Route;
@@ -228,7 +229,8 @@ typedef struct { loiter_integer u; loiter_real time_s, radius_m; } loiter_PathPi
 typedef struct { loiter_PathPiece at[12]; } loiter_PathPiece_ring_12;
 typedef struct { loiter_PathPiece_ring_12 *pieces; loiter_integer total, taken; loiter_real c, s; }
         loiter_GivenPath;
-typedef struct { loiter_integer bank, current, next, last; loiter_real current_s, next_s, last_s; } loiter_Leads;
+typedef struct { loiter_integer bank, rate, current, next, last; loiter_real current_s, more, next_s, last_s; }
+        loiter_Leads;
 typedef struct { loiter_real time_s, x, y, vx, vy, hx, hy; } loiter_RelativeState;
 typedef struct { loiter_real crosstrack, course_error, path_rate; } loiter_PathOffset;
 typedef struct { loiter_RelativeState state; loiter_PathOffset offset; loiter_real early_s; } loiter_ResponsePoint;

@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: e10eda0d3cf2ef75a10104f315693f7bf014a2492eee15c4e9c4de29da3a78ed
+ * SHA-256 of the source: 263ec61c49056a5cd3792156ca1693c406deabdaddaefa7f679a83f1978c508b
  */
 #include "loiter_identification.h"
 
@@ -110,34 +110,36 @@ typedef loiter_VehicleEstimates VehicleEstimates;
 
 typedef loiter_Unknown Unknown;
 
-typedef loiter_real_ring_5 real_ring_5;
+typedef loiter_ModelStep ModelStep;
 
-static inline real_ring_5 real_ring_5_filled(real one) {
-    real_ring_5 ring;
-    for (int i = 0; i < 5; i++) {
+typedef loiter_ModelStep_ring_10 ModelStep_ring_10;
+
+static inline ModelStep_ring_10 ModelStep_ring_10_filled(ModelStep one) {
+    ModelStep_ring_10 ring;
+    for (int i = 0; i < 10; i++) {
         ring.at[i] = one;
     }
     return ring;
 }
 
-static inline real_ring_5 real_ring_5_with_last(real_ring_5 ring, real last) {
-    ring.at[4] = last;
+static inline ModelStep_ring_10 ModelStep_ring_10_with_last(ModelStep_ring_10 ring, ModelStep last) {
+    ring.at[9] = last;
     return ring;
 }
 
-static inline real_ring_5 real_ring_5_appended(real_ring_5 ring, real last) {
-    for (int i = 0; i < 4; i++) {
+static inline ModelStep_ring_10 ModelStep_ring_10_appended(ModelStep_ring_10 ring, ModelStep last) {
+    for (int i = 0; i < 9; i++) {
         ring.at[i] = ring.at[i + 1];
     }
-    ring.at[4] = last;
+    ring.at[9] = last;
     return ring;
 }
 
-static inline void real_ring_5_append(real_ring_5 *ring, real last) {
-    for (int i = 0; i < 4; i++) {
+static inline void ModelStep_ring_10_append(ModelStep_ring_10 *ring, ModelStep last) {
+    for (int i = 0; i < 9; i++) {
         ring->at[i] = ring->at[i + 1];
     }
-    ring->at[4] = last;
+    ring->at[9] = last;
 }
 
 typedef loiter_real_ring_6 real_ring_6;
@@ -207,6 +209,8 @@ typedef loiter_IdentificationSettings IdentificationSettings;
 /* The sums of the weights of indices, of the weighted indices, and of their weighted squares. */
 typedef struct { real total, weighted, squared; } Sums;
 
+typedef loiter_Bank Bank;
+
 typedef loiter_Clock Clock;
 
 typedef loiter_Stamps Stamps;
@@ -215,96 +219,96 @@ typedef loiter_MeasuredBank MeasuredBank;
 
 typedef loiter_RollModel RollModel;
 
-typedef loiter_RollModel_ring_30 RollModel_ring_30;
+typedef loiter_RollModel_ring_60 RollModel_ring_60;
 
-static inline RollModel_ring_30 RollModel_ring_30_filled(RollModel one) {
-    RollModel_ring_30 ring;
-    for (int i = 0; i < 30; i++) {
+static inline RollModel_ring_60 RollModel_ring_60_filled(RollModel one) {
+    RollModel_ring_60 ring;
+    for (int i = 0; i < 60; i++) {
         ring.at[i] = one;
     }
     return ring;
 }
 
-static inline RollModel_ring_30 RollModel_ring_30_with_last(RollModel_ring_30 ring, RollModel last) {
-    ring.at[29] = last;
+static inline RollModel_ring_60 RollModel_ring_60_with_last(RollModel_ring_60 ring, RollModel last) {
+    ring.at[59] = last;
     return ring;
 }
 
-static inline RollModel_ring_30 RollModel_ring_30_appended(RollModel_ring_30 ring, RollModel last) {
-    for (int i = 0; i < 29; i++) {
+static inline RollModel_ring_60 RollModel_ring_60_appended(RollModel_ring_60 ring, RollModel last) {
+    for (int i = 0; i < 59; i++) {
         ring.at[i] = ring.at[i + 1];
     }
-    ring.at[29] = last;
+    ring.at[59] = last;
     return ring;
 }
 
-static inline void RollModel_ring_30_append(RollModel_ring_30 *ring, RollModel last) {
-    for (int i = 0; i < 29; i++) {
+static inline void RollModel_ring_60_append(RollModel_ring_60 *ring, RollModel last) {
+    for (int i = 0; i < 59; i++) {
         ring->at[i] = ring->at[i + 1];
     }
-    ring->at[29] = last;
+    ring->at[59] = last;
 }
 
 typedef loiter_Models Models;
 
-typedef loiter_real_ring_14_ring_30 real_ring_14_ring_30;
+typedef loiter_real_ring_14_ring_60 real_ring_14_ring_60;
 
-static inline real_ring_14_ring_30 real_ring_14_ring_30_filled(real_ring_14 one) {
-    real_ring_14_ring_30 ring;
-    for (int i = 0; i < 30; i++) {
+static inline real_ring_14_ring_60 real_ring_14_ring_60_filled(real_ring_14 one) {
+    real_ring_14_ring_60 ring;
+    for (int i = 0; i < 60; i++) {
         ring.at[i] = one;
     }
     return ring;
 }
 
-static inline real_ring_14_ring_30 real_ring_14_ring_30_with_last(real_ring_14_ring_30 ring, real_ring_14 last) {
-    ring.at[29] = last;
+static inline real_ring_14_ring_60 real_ring_14_ring_60_with_last(real_ring_14_ring_60 ring, real_ring_14 last) {
+    ring.at[59] = last;
     return ring;
 }
 
-static inline real_ring_14_ring_30 real_ring_14_ring_30_appended(real_ring_14_ring_30 ring, real_ring_14 last) {
-    for (int i = 0; i < 29; i++) {
+static inline real_ring_14_ring_60 real_ring_14_ring_60_appended(real_ring_14_ring_60 ring, real_ring_14 last) {
+    for (int i = 0; i < 59; i++) {
         ring.at[i] = ring.at[i + 1];
     }
-    ring.at[29] = last;
+    ring.at[59] = last;
     return ring;
 }
 
-static inline void real_ring_14_ring_30_append(real_ring_14_ring_30 *ring, real_ring_14 last) {
-    for (int i = 0; i < 29; i++) {
+static inline void real_ring_14_ring_60_append(real_ring_14_ring_60 *ring, real_ring_14 last) {
+    for (int i = 0; i < 59; i++) {
         ring->at[i] = ring->at[i + 1];
     }
-    ring->at[29] = last;
+    ring->at[59] = last;
 }
 
-typedef loiter_real_ring_30 real_ring_30;
+typedef loiter_real_ring_60 real_ring_60;
 
-static inline real_ring_30 real_ring_30_filled(real one) {
-    real_ring_30 ring;
-    for (int i = 0; i < 30; i++) {
+static inline real_ring_60 real_ring_60_filled(real one) {
+    real_ring_60 ring;
+    for (int i = 0; i < 60; i++) {
         ring.at[i] = one;
     }
     return ring;
 }
 
-static inline real_ring_30 real_ring_30_with_last(real_ring_30 ring, real last) {
-    ring.at[29] = last;
+static inline real_ring_60 real_ring_60_with_last(real_ring_60 ring, real last) {
+    ring.at[59] = last;
     return ring;
 }
 
-static inline real_ring_30 real_ring_30_appended(real_ring_30 ring, real last) {
-    for (int i = 0; i < 29; i++) {
+static inline real_ring_60 real_ring_60_appended(real_ring_60 ring, real last) {
+    for (int i = 0; i < 59; i++) {
         ring.at[i] = ring.at[i + 1];
     }
-    ring.at[29] = last;
+    ring.at[59] = last;
     return ring;
 }
 
-static inline void real_ring_30_append(real_ring_30 *ring, real last) {
-    for (int i = 0; i < 29; i++) {
+static inline void real_ring_60_append(real_ring_60 *ring, real last) {
+    for (int i = 0; i < 59; i++) {
         ring->at[i] = ring->at[i + 1];
     }
-    ring->at[29] = last;
+    ring->at[59] = last;
 }
 
 typedef loiter_RollEstimate RollEstimate;
@@ -384,6 +388,16 @@ static const Sums NO_SUMS = {REAL(0.0), REAL(0.0), REAL(0.0)};
 #define STEP_S REAL(0.1)
 #define DELAYS 14
 #define DELAY_SPREAD_S REAL(0.2)
+static const ModelStep NO_MODEL_STEP = {REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)};
+
+/* A step of a model of second order is computed in so many. */
+#define SUBSTEPS 32
+
+/* Each is of first order and, with these multiples of its time constant and of that as the lag of its rate, of
+ * second order: as quick to 63 %, with an overshoot of 13 %.
+ */
+#define SECOND_TIME REAL(0.71)
+#define SECOND_LAG REAL(0.58)
 
 /* The airspeed is averaged over the first time, seconds, at most; the declared one counts for the second. */
 #define DECLARED_AIRSPEED_S REAL(5.0)
@@ -399,9 +413,11 @@ static const Sums NO_SUMS = {REAL(0.0), REAL(0.0), REAL(0.0)};
 /* Errors are forgotten over this time, seconds, while the predictions differ by more than `EXCITED_DEG`. */
 #define EXCITED_DEG REAL(3.0)
 #define MEMORY_S REAL(10.0)
-#define ERROR_DEG REAL(2.0)
+#define ERROR_DEG REAL(1.4)
 #define LARGEST_ERROR_DEG REAL(10.0)
-#define MODELS 30 /* TIMES * RATES */
+#define KINDS 10 /* TIMES * ORDERS */
+#define ORDERS 2
+#define MODELS 60 /* KINDS * RATES */
 
 /* The estimate of the rate limit is lower than its mean by this multiple of the standard deviation that is left, to
  * the extent that measurements count: a reversal that begins too late costs more than one that begins too early.
@@ -558,6 +574,28 @@ static inline real value_at(const Unknown *unknown, real index) {
     return unknown->declared + unknown->step * (index - unknown->at_index);
 }
 
+/* A bank and its rate after a short step under a command of 0. */
+static inline Bank decayed(Bank now, real time_s, real lag_s, real dt) {
+    const real half_deg = now.bank_deg + REAL(0.5) * dt * now.rate_deg_s;
+    const real half_deg_s = now.rate_deg_s - REAL(0.5) * dt * (now.bank_deg / time_s + now.rate_deg_s) / lag_s;
+    return MAKE(Bank){now.bank_deg + dt * half_deg_s, now.rate_deg_s - dt * (half_deg / time_s + half_deg_s) /
+            lag_s};
+}
+
+/* The step of a model without its limit. */
+static inline ModelStep step_of(real time_s, real lag_s) {
+    if (lag_s == REAL(0.0)) {
+        return MAKE(ModelStep){REAL(1.0) - real_exp(-STEP_S / time_s), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)};
+    }
+    Bank one = MAKE(Bank){REAL(1.0), REAL(0.0)}, other = MAKE(Bank){REAL(0.0), REAL(1.0)};
+    const real dt = STEP_S / (real)SUBSTEPS;
+    for (integer pass_1 = 0; pass_1 < SUBSTEPS; pass_1++) {
+        one = decayed(one, time_s, lag_s, dt);
+        other = decayed(other, time_s, lag_s, dt);
+    }
+    return MAKE(ModelStep){REAL(1.0) - one.bank_deg, other.bank_deg, -one.rate_deg_s, other.rate_deg_s, lag_s};
+}
+
 /* The models for what is declared. */
 static inline RollSettings roll_settings(RollValues declared, real delay_s) {
     const real time_s = max_real(declared.time_s, LEAST_TIME_S), rate_deg_s = min_real(declared.rate_deg_s,
@@ -567,11 +605,13 @@ static inline RollSettings roll_settings(RollValues declared, real delay_s) {
     delay_s = min_real(delay_s, STEP_S * (real)(DELAYS - 1));
     const Unknown delay = unknown_of(delay_s, (real)(DELAYS - 1) - delay_s / STEP_S, -STEP_S, DELAY_SPREAD_S,
             DELAYS);
-    real_ring_5 shares = real_ring_5_filled(REAL(0.0));
+    ModelStep_ring_10 kinds = ModelStep_ring_10_filled(NO_MODEL_STEP);
     real_ring_6 limits_deg = real_ring_6_filled(REAL(0.0));
     real_ring_14 delay_logs = real_ring_14_filled(REAL(0.0));
     for (integer i = 0; i < TIMES; i++) {
-        real_ring_5_append(&shares, REAL(1.0) - real_exp(-STEP_S / real_exp(value_at(&time, (real)i))));
+        const real one_s = real_exp(value_at(&time, (real)i));
+        ModelStep_ring_10_append(&kinds, step_of(one_s, REAL(0.0)));
+        ModelStep_ring_10_append(&kinds, step_of(SECOND_TIME * one_s, SECOND_LAG * one_s));
     }
     for (integer i = 0; i < RATES; i++) {
         real_ring_6_append(&limits_deg, STEP_S * real_exp(value_at(&rate, (real)i)));
@@ -579,7 +619,7 @@ static inline RollSettings roll_settings(RollValues declared, real delay_s) {
     for (integer i = 0; i < DELAYS; i++) {
         real_ring_14_append(&delay_logs, declared_log(&delay, (real)i));
     }
-    return MAKE(RollSettings){time, rate, delay, shares, limits_deg, delay_logs};
+    return MAKE(RollSettings){time, rate, delay, kinds, limits_deg, delay_logs};
 }
 
 /* The settings for what is declared. */
@@ -595,17 +635,28 @@ static inline real clip(real value, real limit) {
     return value > limit ? limit : value < -limit ? -limit : value;
 }
 
+/* A model after a step under a command. */
+static inline Bank model_step(ModelStep kind, real limit_deg, Bank now, real command_deg) {
+    const real missing_deg = command_deg - now.bank_deg;
+    const real change_deg = clip(kind.change * missing_deg + kind.change_s * now.rate_deg_s, limit_deg);
+    const real rate_deg_s = clip(kind.rate * missing_deg + kind.rate_kept * now.rate_deg_s, limit_deg / STEP_S);
+    return MAKE(Bank){now.bank_deg + change_deg, rate_deg_s};
+}
+
+/* To what extent measurements count instead of what is declared, from 0 to 1. */
+static inline real measured_share(const Unknown *unknown, Sums sums) {
+    return REAL(1.0) - min_real(max_real(variance_of(sums) / unknown->variance, REAL(0.0)), REAL(1.0));
+}
+
 /* The weighted mean of an unknown, without the bias that is left. */
 static inline real estimate_of(const Unknown *unknown, Sums sums) {
-    const real left = min_real(max_real(variance_of(sums) / unknown->variance, REAL(0.0)), REAL(1.0));
-    return value_at(unknown, mean_of(sums) - left * unknown->bias);
+    return value_at(unknown, mean_of(sums) - (REAL(1.0) - measured_share(unknown, sums)) * unknown->bias);
 }
 
 /* `estimate_of`, lower by `RATE_CAUTION` standard deviations; what is declared is believed until measured. */
 static inline real cautious_estimate(const Unknown *unknown, Sums sums) {
-    const real variance = max_real(variance_of(sums), REAL(0.0));
-    const real measured = REAL(1.0) - min_real(variance / unknown->variance, REAL(1.0));
-    return estimate_of(unknown, sums) - RATE_CAUTION * measured * unknown->step * real_sqrt(variance);
+    const real deviation = unknown->step * real_sqrt(max_real(variance_of(sums), REAL(0.0)));
+    return estimate_of(unknown, sums) - RATE_CAUTION * measured_share(unknown, sums) * deviation;
 }
 
 /* The weights after a bank that was measured within the last step of the models. */
@@ -619,19 +670,20 @@ static inline void update_weights(Weights *weights, const RollSettings *settings
             LARGEST_ERROR_DEG;
     real errors = REAL(0.0), squares = REAL(0.0), index = REAL(0.0), index_square = REAL(0.0);
     Sums time = NO_SUMS, rate = NO_SUMS;
-    for (integer i = 0; i < TIMES; i++) {
-        const real share = settings->shares.at[i], time_log = declared_log(&settings->time, (real)i) -
-                log_total;
+    real lag_s = REAL(0.0), second = REAL(0.0);
+    for (integer i = 0; i < KINDS; i++) {
+        const ModelStep kind = settings->kinds.at[i];
+        const real time_log = declared_log(&settings->time, (real)integer_quotient(i, ORDERS)) - log_total;
         for (integer j = 0; j < RATES; j++) {
             const real limit_deg = settings->limits_deg.at[j], model_log = time_log +
                     declared_log(&settings->rate, (real)j);
-            real bank_deg = models->models.at[i * RATES + j].earliest_deg;
+            Bank now = models->models.at[i * RATES + j].earliest;
             real_ring_14 pairs = weights->logs.at[0];
             real total = REAL(0.0);
             for (integer k = 0; k < DELAYS; k++) {
-                const real change = clip(share * (models->commands_deg.at[k] - bank_deg), limit_deg);
-                const real error = bank_deg + done * change - measured_deg;
-                bank_deg = bank_deg + change;
+                const Bank after = model_step(kind, limit_deg, now, models->commands_deg.at[k]);
+                const real error = now.bank_deg + done * (after.bank_deg - now.bank_deg) - measured_deg;
+                now = after;
                 const real square = error * error;
                 errors = errors + error;
                 squares = squares + square;
@@ -642,17 +694,23 @@ static inline void update_weights(Weights *weights, const RollSettings *settings
                 index = index + (real)k * weight;
                 index_square = index_square + (real)(k * k) * weight;
             }
-            real_ring_14_ring_30_append(&weights->logs, pairs);
-            real_ring_30_append(&weights->probabilities, total);
-            time = with_index(time, i, total);
+            real_ring_14_ring_60_append(&weights->logs, pairs);
+            real_ring_60_append(&weights->probabilities, total);
+            time = with_index(time, integer_quotient(i, ORDERS), total);
             rate = with_index(rate, j, total);
+            lag_s = lag_s + total * kind.lag_s;
+            second = second + (kind.lag_s > REAL(0.0) ? total : REAL(0.0));
         }
     }
     for (integer pass_1 = 0; pass_1 < MODELS; pass_1++) {
-        real_ring_30_append(&weights->probabilities, weights->probabilities.at[0] / time.total);
+        real_ring_60_append(&weights->probabilities, weights->probabilities.at[0] / time.total);
     }
-    const RollValues roll = MAKE(RollValues){real_exp(estimate_of(&settings->time, time)),
-            real_exp(cautious_estimate(&settings->rate, rate))};
+    /* A roll of first order is declared. */
+    const real share = measured_share(&settings->time, time) / time.total;
+    const real time_s = real_exp(estimate_of(&settings->time, time)) * (REAL(1.0) + share * second * (SECOND_TIME
+            - REAL(1.0)));
+    const RollValues roll = MAKE(RollValues){time_s, real_exp(cautious_estimate(&settings->rate, rate)), share *
+            lag_s};
     const real delay_s = max_real(estimate_of(&settings->delay, MAKE(Sums){time.total, index, index_square}),
             REAL(0.0));
     const real mean = errors / (real)(MODELS * DELAYS);
@@ -732,22 +790,49 @@ static inline real bank_after(real roll_time_s, real rate_deg_s, real bank_deg, 
     return time_s <= limited_s ? command_deg - missing : command_deg;
 }
 
+/* The bank after a short time under a constant command; exact without a lag of the bank rate. */
+static inline Bank roll_after(RollValues roll, Bank now, real command_deg, real time_s) {
+    if (roll.lag_s == REAL(0.0) || time_s == REAL(0.0)) {
+        return MAKE(Bank){bank_after(roll.time_s, roll.rate_deg_s, now.bank_deg, command_deg, time_s),
+                now.rate_deg_s};
+    }
+    const real kept = real_exp(-time_s / roll.lag_s);
+    const real wanted_deg_s = (command_deg - now.bank_deg - REAL(0.5) * time_s * now.rate_deg_s) / roll.time_s;
+    const real rate_deg_s = clip(wanted_deg_s + kept * (now.rate_deg_s - wanted_deg_s), roll.rate_deg_s);
+    const real share = roll.lag_s / time_s - kept / (REAL(1.0) - kept);
+    return MAKE(Bank){now.bank_deg + time_s * (rate_deg_s + share * (now.rate_deg_s - rate_deg_s)), rate_deg_s};
+}
+
 /* All models after a step under the mean command. */
 static inline void step_models(Models *models, const RollSettings *settings, real command_deg) {
     const real oldest_deg = models->commands_deg.at[0];
-    for (integer i = 0; i < TIMES; i++) {
-        const real share = settings->shares.at[i];
+    for (integer i = 0; i < KINDS; i++) {
+        const ModelStep kind = settings->kinds.at[i];
         for (integer j = 0; j < RATES; j++) {
-            const RollModel parts_1 = models->models.at[0];
-            real bank_deg = parts_1.bank_deg, earliest_deg = parts_1.earliest_deg;
+            const RollModel one = models->models.at[0];
             const real limit_deg = settings->limits_deg.at[j];
-            bank_deg += clip(share * (command_deg - bank_deg), limit_deg);
-            earliest_deg += clip(share * (oldest_deg - earliest_deg), limit_deg);
-            RollModel_ring_30_append(&models->models, MAKE(RollModel){bank_deg, earliest_deg});
+            const Bank present = model_step(kind, limit_deg, one.present, command_deg);
+            const Bank earliest = model_step(kind, limit_deg, one.earliest, oldest_deg);
+            RollModel_ring_60_append(&models->models, MAKE(RollModel){present, earliest});
         }
     }
     real_ring_14_append(&models->commands_deg, command_deg);
     return;
+}
+
+/* The weighted means of the banks of the models, and of their rates, as far as these go on. */
+static inline Bank mean_bank(const RollMemory *memory, const RollSettings *settings) {
+    real bank_deg = REAL(0.0), lag_s = REAL(0.0), coasted_deg = REAL(0.0);
+    for (integer i = 0; i < KINDS; i++) {
+        for (integer j = 0; j < RATES; j++) {
+            const real probability = memory->weights.probabilities.at[i * RATES + j];
+            const Bank now = memory->models.models.at[i * RATES + j].present;
+            bank_deg += probability * now.bank_deg;
+            lag_s += probability * settings->kinds.at[i].lag_s;
+            coasted_deg += probability * settings->kinds.at[i].lag_s * now.rate_deg_s;
+        }
+    }
+    return MAKE(Bank){bank_deg, lag_s > REAL(0.0) ? coasted_deg / lag_s : REAL(0.0)};
 }
 
 /* The memory after `dt` seconds under a command. */
@@ -755,14 +840,15 @@ static inline void fly_models(RollMemory *memory, const RollSettings *settings, 
     real waiting_s = memory->waiting_s, commanded = memory->commanded;
     dt = min_real(dt, LONGEST_STEP_S);
     const real since_s = memory->since_s + dt, missing_s = STEP_S - waiting_s;
-    real bank_deg;
+    Bank now;
     if (dt < missing_s) {
         /* Between the steps of the models the present bank is that of the estimated response. */
-        bank_deg = bank_after(memory->weights.estimate.roll.time_s, memory->weights.estimate.roll.rate_deg_s,
-                memory->bank_deg, command_deg, dt);
+        now = roll_after(memory->weights.estimate.roll, MAKE(Bank){memory->bank_deg, memory->bank_rate_deg_s},
+                command_deg, dt);
         waiting_s = waiting_s + dt;
         commanded = commanded + dt * command_deg;
-        memory->bank_deg = bank_deg;
+        memory->bank_deg = now.bank_deg;
+        memory->bank_rate_deg_s = now.rate_deg_s;
         memory->waiting_s = waiting_s;
         memory->commanded = commanded;
         memory->since_s = since_s;
@@ -778,14 +864,10 @@ static inline void fly_models(RollMemory *memory, const RollSettings *settings, 
         step_models(&memory->models, settings, command_deg);
         left_s -= STEP_S;
     }
-    bank_deg = REAL(0.0);
-    for (integer i = 0; i < MODELS; i++) {
-        bank_deg += memory->weights.probabilities.at[i] * memory->models.models.at[i].bank_deg;
-    }
-    bank_deg = bank_after(memory->weights.estimate.roll.time_s, memory->weights.estimate.roll.rate_deg_s,
-            bank_deg, command_deg, left_s);
+    now = roll_after(memory->weights.estimate.roll, mean_bank(memory, settings), command_deg, left_s);
     commanded = left_s * command_deg;
-    memory->bank_deg = bank_deg;
+    memory->bank_deg = now.bank_deg;
+    memory->bank_rate_deg_s = now.rate_deg_s;
     memory->waiting_s = left_s;
     memory->commanded = commanded;
     memory->since_s = since_s;
@@ -852,8 +934,8 @@ static inline State remove_bias(const VehicleEstimates *known, const State *stat
 
 /* The models at a bank that has always been this. */
 static inline Models constant_models(real bank_deg) {
-    return MAKE(Models){real_ring_14_filled(bank_deg), RollModel_ring_30_filled(MAKE(RollModel){bank_deg,
-            bank_deg})};
+    return MAKE(Models){real_ring_14_filled(bank_deg), RollModel_ring_60_filled(MAKE(RollModel){MAKE(Bank){bank_deg,
+            REAL(0.0)}, MAKE(Bank){bank_deg, REAL(0.0)}})};
 }
 
 /* The memory with every model at a bank. */

@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: e10eda0d3cf2ef75a10104f315693f7bf014a2492eee15c4e9c4de29da3a78ed
+ * SHA-256 of the source: 263ec61c49056a5cd3792156ca1693c406deabdaddaefa7f679a83f1978c508b
  */
 #ifndef LOITER_IDENTIFICATION_H
 #define LOITER_IDENTIFICATION_H
@@ -16,25 +16,27 @@ extern "C" {
 
 /* The structures of which the state of an identification consists. No program needs to read them. */
 typedef struct { loiter_real declared, at_index, step, spread, bias, variance; } loiter_Unknown;
-typedef struct { loiter_real at[5]; } loiter_real_ring_5;
+typedef struct { loiter_real change, change_s, rate, rate_kept, lag_s; } loiter_ModelStep;
+typedef struct { loiter_ModelStep at[10]; } loiter_ModelStep_ring_10;
 typedef struct { loiter_real at[6]; } loiter_real_ring_6;
 typedef struct { loiter_real at[14]; } loiter_real_ring_14;
-typedef struct { loiter_Unknown time, rate, delay; loiter_real_ring_5 shares; loiter_real_ring_6 limits_deg;
+typedef struct { loiter_Unknown time, rate, delay; loiter_ModelStep_ring_10 kinds; loiter_real_ring_6 limits_deg;
         loiter_real_ring_14 delay_logs; } loiter_RollSettings;
 typedef struct { loiter_VehicleEstimates declared; loiter_real wind_known_s, limit_deg; loiter_RollSettings roll; }
         loiter_IdentificationSettings;
 typedef struct { loiter_Clock clock; loiter_real waited_s, used_s; } loiter_Stamps;
 typedef struct { loiter_real bank_deg, after_s, since_s; } loiter_MeasuredBank;
-typedef struct { loiter_real bank_deg, earliest_deg; } loiter_RollModel;
-typedef struct { loiter_RollModel at[30]; } loiter_RollModel_ring_30;
-typedef struct { loiter_real_ring_14 commands_deg; loiter_RollModel_ring_30 models; } loiter_Models;
-typedef struct { loiter_real_ring_14 at[30]; } loiter_real_ring_14_ring_30;
-typedef struct { loiter_real at[30]; } loiter_real_ring_30;
+typedef struct { loiter_real bank_deg, rate_deg_s; } loiter_Bank;
+typedef struct { loiter_Bank present, earliest; } loiter_RollModel;
+typedef struct { loiter_RollModel at[60]; } loiter_RollModel_ring_60;
+typedef struct { loiter_real_ring_14 commands_deg; loiter_RollModel_ring_60 models; } loiter_Models;
+typedef struct { loiter_real_ring_14 at[60]; } loiter_real_ring_14_ring_60;
+typedef struct { loiter_real at[60]; } loiter_real_ring_60;
 typedef struct { loiter_RollValues roll; loiter_real delay_s; } loiter_RollEstimate;
-typedef struct { loiter_real_ring_14_ring_30 logs; loiter_real log_total, variance_deg2; loiter_real_ring_30
+typedef struct { loiter_real_ring_14_ring_60 logs; loiter_real log_total, variance_deg2; loiter_real_ring_60
         probabilities; loiter_RollEstimate estimate; } loiter_Weights;
-typedef struct { loiter_real bank_deg, waiting_s, commanded, since_s; loiter_MeasuredBank measured; loiter_Models
-        models; loiter_Weights weights; } loiter_RollMemory;
+typedef struct { loiter_real bank_deg, bank_rate_deg_s, waiting_s, commanded, since_s; loiter_MeasuredBank measured;
+        loiter_Models models; loiter_Weights weights; } loiter_RollMemory;
 typedef struct { loiter_real xx, xu, uu, xy, uy; } loiter_TurnSums;
 typedef struct { loiter_real ratio, bank_bias_deg; loiter_TurnSums sums; loiter_real last_deg, last_rate,
         last_slope, measured_deg, computed_deg, of_bias_deg; } loiter_SlowTurns;

@@ -324,7 +324,7 @@ void fly_scene(const Scene *s, const Settings *settings, const VehicleEstimates 
     begin_mass(&mass, s, normals, gusts);
     memset(&identification, 0, sizeof identification);
     begin_identification(&identification, &known);
-    VehicleModel vehicle = {0, 0.0, *declared};
+    VehicleModel vehicle = {0, 0.0, 0.0, *declared};
     memory = first_memory(*settings, vehicle);
     Link link = {uniforms, outages, 0.0, 0.0, 0.0, -1, mass.latest};
     link.next_s = interval_s(&link, s);
@@ -339,10 +339,12 @@ void fly_scene(const Scene *s, const Settings *settings, const VehicleEstimates 
             (void)advance_roll(&known_roll, memory.command.bank_deg, memory.step_s);
         }
         advance_identification(&identification, &known, link.latest, memory.command.bank_deg, memory.step_s);
-        vehicle = (VehicleModel){identification.revision, identification.roll.bank_deg, identification.estimates};
+        vehicle = (VehicleModel){identification.revision, identification.roll.bank_deg,
+            identification.roll.bank_rate_deg_s, identification.estimates};
         if (s->knows_roll) {
             vehicle.bank_deg = known_roll.bank_deg;
-            vehicle.estimates.roll = (RollValues){s->lag_s, s->roll.rate_deg_s};
+            vehicle.bank_rate_deg_s = known_roll.bank_rate_deg_s;
+            vehicle.estimates.roll = (RollValues){s->lag_s, s->roll.rate_deg_s, s->roll.order == 1 ? 0.0 : 0.5 / (s->roll.damping * s->roll.frequency)};
             vehicle.estimates.delay_s = s->delay_s + s->roll.dead_time_s;
         }
         law_step_advance(&memory, *settings, vehicle, link.latest, dt);

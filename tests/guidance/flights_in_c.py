@@ -104,7 +104,7 @@ def roll_kind(roll, start_deg):
     zeta = damping(roll.overshoot)
     frequency = rise_time(zeta) / roll.time_s
     kind = RollKind(2, roll.time_s, roll.rate_deg_s, roll.dead_time_s, zeta, frequency, start_deg)
-    return kind, 2.0 * zeta / rise_time(zeta) * roll.time_s
+    return kind, 2.0 * zeta / frequency
 
 
 def fly_in_c(trial, gust=0.0, *, limit_s=LIMIT_S, knows_roll=False, track=False):

@@ -16,12 +16,13 @@ void fly_into_slot(const Scene *s, const Settings *settings, const SlotSettings 
     begin_mass(&mass, s, normals, gusts);
     memset(&identification, 0, sizeof identification);
     begin_identification(&identification, &known);
-    memory = first_memory(*settings, (VehicleModel){0, 0.0, *declared});
+    memory = first_memory(*settings, (VehicleModel){0, 0.0, 0.0, *declared});
     SlotMemory kept = first_slot_memory(*slot);
     for (int64_t i = 0; i < steps; i++) {
         advance_identification(&identification, &known, mass.latest, memory.command.bank_deg, memory.step_s);
         const VehicleModel vehicle = {
-            identification.revision, identification.roll.bank_deg, identification.estimates};
+            identification.revision, identification.roll.bank_deg, identification.roll.bank_rate_deg_s,
+            identification.estimates};
         const Memory_SlotMemory after =
             advance_in_slot(memory, kept, *settings, *slot, vehicle, mass.latest, s->step_s);
         memory = after.a0;

@@ -33,7 +33,7 @@ void vehicle_begin(const VehicleEstimates *declared, const double *limit_deg, co
                    Vehicle *vehicle) {
     vehicle->settings = settings_of(*declared, *limit_deg, *wind_known_s);
     vehicle->memory = begin_identification(vehicle->memory, vehicle->settings);
-    vehicle->model = (VehicleModel){0, 0.0, *declared};
+    vehicle->model = (VehicleModel){0, 0.0, 0.0, *declared};
 }
 void law_begin(const Settings *settings, const Vehicle *vehicle, Memory *memory) {
     *memory = first_memory(*settings, vehicle->model);

@@ -7,7 +7,8 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from loiter.errors import InvalidArgument
-from loiter.guidance.vehicle.rolling import INSTANT_ROLL, Roll
+from loiter.guidance.vehicle.limits import clip
+from loiter.guidance.vehicle.rolling import INSTANT_ROLL, Bank, Roll, RollValues, demand_deg, turn_delay
 
 LIMIT_DEG = 35.0
 rolls = st.builds(Roll, st.floats(0.05, 2.0), st.sampled_from([15.0, 60.0, 300.0, inf]))
@@ -85,6 +86,21 @@ def test_a_reversal_displaces_the_aircraft_towards_the_new_turn(reversal):
     assert course == pytest.approx(instant, abs=0.002)
     change = turn_rate(end, V) - turn_rate(begin, V)
     assert apart == pytest.approx(0.5 * roll.onset(begin, end, 50.0).variance_s2 * V * change, rel=0.05)
+
+
+@pytest.mark.parametrize("begin", [Bank(-35.0, 0.0), Bank(0.0, 50.0), Bank(30.0, -60.0)])
+@pytest.mark.parametrize("roll", [RollValues(0.7, 60.0, 0.5), RollValues(0.3, 120.0, 0.2), RollValues(1.0, 30.0, 0.6)])
+def test_a_bank_whose_rate_lags_delays_a_turn(roll, begin):
+    """Beside small steps of the differential equation, under the same demands."""
+    target, step, (bank, rate), missing, moment = 15.0, 1e-3, begin, 0.0, 0.0
+    for i in range(12000):
+        command = demand_deg(roll, Bank(bank, rate), target, LIMIT_DEG)
+        rate = clip(rate + ((command - bank) / roll.time_s - rate) / roll.lag_s * step, roll.rate_deg_s)
+        part = (tan(radians(target)) - tan(radians(bank))) * step
+        missing, moment, bank = missing + part, moment + part * i * step, bank + rate * step
+    delay = turn_delay(roll, begin, target, LIMIT_DEG)
+    assert delay.missing_s == pytest.approx(missing, abs=0.04)
+    assert delay.moment_s2 == pytest.approx(moment, abs=0.08)
 
 
 def turn_rate(bank, airspeed):

@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from loiter.guidance.vehicle.rolling import turn_onset
+from loiter.guidance.vehicle.rolling import RollValues, turn_onset
 from native.untranslatable import rounds
 
 ROUNDING = 0.5
@@ -14,7 +14,7 @@ class TurnOnset(NamedTuple):
 
 def two_structures(x: float) -> float:
     mine = TurnOnset(x)
-    return mine.x + turn_onset(x, x, x, x, x).lead_s
+    return mine.x + turn_onset(RollValues(x, x, x), x, x, x).lead_s
 
 
 def two_constants(x: float) -> float:

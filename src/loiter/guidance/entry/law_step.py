@@ -6,7 +6,7 @@ Numbers alone: no exceptions, no objects that change. Sides are those of `kernel
 
 from __future__ import annotations
 
-from math import ceil, degrees, inf, nan
+from math import ceil, degrees, inf, nan, radians, tan
 from typing import NamedTuple
 
 from loiter.guidance.entry.entry_planner import (
@@ -68,12 +68,22 @@ from loiter.guidance.estimation.observer import (
 from loiter.guidance.estimation.vehicle import VehicleEstimates, VehicleModel, remove_bias
 from loiter.guidance.protocol import State
 from loiter.guidance.vehicle.limits import clip
-from loiter.guidance.vehicle.rolling import TurnOnset, demand_deg, turn_onset
+from loiter.guidance.vehicle.rolling import (
+    SMALL_CHANGE_DEG,
+    Bank,
+    RollValues,
+    TurnOnset,
+    coasting_s,
+    demand_deg,
+    small_onset,
+    turn_delay,
+    turn_onset,
+)
 from loiter.guidance.vehicle.turning import bank_at_rate, rate_at_bank
 from loiter.kernel.angles import length
 from loiter.kernel.wind.wind_search import UNLIMITED
 from loiter.kernel.words import ABSENT, Side, Word, code, controls, encode
-from loiter.planning.model import radius_at_bank
+from loiter.planning.model import STANDARD_GRAVITY_M_S2, radius_at_bank
 
 # The values below were tuned in gusts, with 200 to 500 starts each: docs/guidance.md.
 # Planned turns are wider than the tightest turn by this share; the difference is left to correct the last arc. It is up
@@ -162,6 +172,9 @@ TRIM_GAIN, LARGEST_TRIM_GAIN, LARGEST_TRIM, TRIMMED_OFFSET = 0.25, 0.4, 0.15, 0.
 # What a command does: the control that it flies, +1 to the left; or one of these.
 HOLD, NO_DATA = 2, 3
 
+# Rates of the bank count in steps of so many half degrees per second.
+RATE_STEPS = 4.0
+
 # A bank that no piece has: the table of leads is then empty.
 NO_BANK = -(10**9)
 
@@ -205,8 +218,7 @@ class Limits(NamedTuple):
     wind_differs: bool
     wind_east_m_s: float
     wind_north_m_s: float
-    roll_time_s: float
-    roll_rate_deg_s: float
+    roll: RollValues
     limit_deg: float
     turns: TurnLimits
     hold_deg: float
@@ -223,8 +235,7 @@ NO_LIMITS = Limits(
     wind_differs=False,
     wind_east_m_s=0.0,
     wind_north_m_s=0.0,
-    roll_time_s=0.0,
-    roll_rate_deg_s=0.0,
+    roll=RollValues(0.0, 0.0, 0.0),
     limit_deg=0.0,
     turns=TurnLimits(1.0, 1.0, 1.0),
     hold_deg=0.0,
@@ -249,6 +260,7 @@ class Sensing(NamedTuple):
     history: BankHistory
     limits: Limits
     present: Estimate
+    bank_rate_deg_s: float
     elapsed_s: float
     model_error_deg: float
     is_known: bool
@@ -271,18 +283,25 @@ NO_PLAN = Plan(NO_ROUTE, 0.0, inf, inf, -inf)
 
 
 class Leads(NamedTuple):
-    """Delays of changes from a bank to those of the current, the next and the last piece; banks in half degrees."""
+    """Delays of changes from a bank, at a rate, to those of the current, the next and the last piece.
+
+    Banks are in half degrees. The present command takes effect after `current_s`; until then the turn rate is larger
+    than the present one by `more` g/V. The next bank must be commanded `next_s` before the current piece ends, that of
+    the last one `last_s`.
+    """
 
     bank: int
+    rate: int
     current: int
     next: int
     last: int
     current_s: float
+    more: float
     next_s: float
     last_s: float
 
 
-NO_LEADS = Leads(NO_BANK, 0, 0, 0, 0.0, 0.0, 0.0)
+NO_LEADS = Leads(NO_BANK, 0, 0, 0, 0, 0.0, 0.0, 0.0, 0.0)
 
 
 class LawCommand(NamedTuple):
@@ -339,7 +358,7 @@ def first_memory(settings: Settings, vehicle: VehicleModel) -> Memory:
     limits = limits_of(settings, vehicle, NO_LIMITS)
     observer, history = first_observer(settings.smoothing_s), constant_history(vehicle.bank_deg)
     return Memory(
-        sensing=Sensing(FIRST_CLOCK, observer, history, limits, NO_ESTIMATE, 0.0, 0.0, False),
+        sensing=Sensing(FIRST_CLOCK, observer, history, limits, NO_ESTIMATE, 0.0, 0.0, 0.0, False),
         plan=NO_PLAN,
         path=no_path(),
         leads=NO_LEADS,
@@ -407,7 +426,8 @@ def conclude(memory: Memory, settings: Settings, vehicle: VehicleModel, dt: floa
     limits, present = memory.sensing.limits, memory.sensing.present
     target_deg, trim = target_bank(settings, memory, vehicle.estimates, dt)
     target_deg = clip(target_deg, limits.limit_deg)
-    bank_deg = demand_deg(vehicle.estimates.roll.time_s, present.bank_deg, target_deg, limits.limit_deg)
+    now = Bank(present.bank_deg, memory.sensing.bank_rate_deg_s)
+    bank_deg = demand_deg(vehicle.estimates.roll, now, target_deg, limits.limit_deg)
     bank_deg = clip(bank_deg, settings.command_limit_deg)
     route = memory.plan.route
     command = LawCommand(
@@ -441,21 +461,22 @@ def sense(sensing: Sensing, settings: Settings, vehicle: VehicleModel, measureme
     Telemetry may be slower than the steps: until the next measurement, but no longer than `EXTRAPOLATED_S`, the last
     estimate is extrapolated with the modelled bank.
     """
-    clock, observer, history, limits, present, elapsed_s, error_deg, _ = sensing
+    clock, observer, history, limits, present, _, elapsed_s, error_deg, _ = sensing
+    rate_deg_s = vehicle.bank_rate_deg_s
     if step_s > 0.0:
         clock, elapsed_s = advance_clock(clock, step_s), elapsed_s + step_s
         history = record_bank(history, vehicle.bank_deg, step_s, settings.covered_s)
     if not is_usable(measurement):
-        return Sensing(clock, observer, history, limits, present, elapsed_s, error_deg, False)
+        return Sensing(clock, observer, history, limits, present, rate_deg_s, elapsed_s, error_deg, False)
     if measurement.time_s == clock.time_s:
         if present.airspeed_m_s == 0.0 or clock.since_s > EXTRAPOLATED_S:
-            return Sensing(clock, observer, history, limits, present, elapsed_s, error_deg, False)
+            return Sensing(clock, observer, history, limits, present, rate_deg_s, elapsed_s, error_deg, False)
         present = estimate_after(estimate_with_bank(present, history.current_deg + error_deg), elapsed_s)
-        return Sensing(clock, observer, history, limits, present, 0.0, error_deg, True)
+        return Sensing(clock, observer, history, limits, present, rate_deg_s, 0.0, error_deg, True)
     is_first = clock.time_s == -inf
     clock, is_new = check_stamp(clock, measurement.time_s)
     if not is_new:
-        return Sensing(clock, observer, history, limits, present, elapsed_s, error_deg, False)
+        return Sensing(clock, observer, history, limits, present, rate_deg_s, elapsed_s, error_deg, False)
     if is_first:
         history = constant_history(vehicle.bank_deg)
     if clock.jump_s != 0.0 or clock.gap_s > EXTRAPOLATED_S:
@@ -466,7 +487,9 @@ def sense(sensing: Sensing, settings: Settings, vehicle: VehicleModel, measureme
     turning, bank_deg = Turning(known.turn_ratio, known.course_lead_s), delayed_deg(history, known.delay_s)
     observer = observe(observer, remove_bias(known, measurement), bank_deg, settings.smoothing_s, turning)
     present = estimate_at_present(observer.estimate, history, known.delay_s)
-    return Sensing(clock, observer, history, limits, present, 0.0, present.bank_deg - history.current_deg, True)
+    return Sensing(
+        clock, observer, history, limits, present, rate_deg_s, 0.0, present.bank_deg - history.current_deg, True
+    )
 
 
 def limits_of(settings: Settings, vehicle: VehicleModel, before: Limits) -> Limits:
@@ -475,18 +498,14 @@ def limits_of(settings: Settings, vehicle: VehicleModel, before: Limits) -> Limi
     wind_differs, east, north = planned_wind(settings, known, before.wind_differs)
     widest_m = widest_turn_m(V, R, east, north)
     limit_deg = present_limit_deg(settings, known, widest_m)
-    roll_time_s, rate_deg_s = before.roll_time_s, before.roll_rate_deg_s
-    is_other = (
-        abs(known.roll.time_s - roll_time_s) > ROLL_CHANGED * roll_time_s
-        or abs(known.roll.rate_deg_s - rate_deg_s) > ROLL_CHANGED * rate_deg_s
-        or limit_deg != before.limit_deg
-    )
+    roll = before.roll
+    is_other = is_changed(known.roll, roll) or limit_deg != before.limit_deg
     if is_other:
-        roll_time_s, rate_deg_s = known.roll.time_s, known.roll.rate_deg_s
+        roll = known.roll
     tightest_m = radius_at_bank(known.turn_airspeed_m_s, limit_deg) / known.turn_ratio
     lead_s = before.lead_s
     if is_other:
-        lead_s = rounded_onset(roll_time_s, rate_deg_s, 0.0, limit_deg, limit_deg).lead_s
+        lead_s = rounded_onset(roll, 0.0, limit_deg, limit_deg).lead_s
     turned = lead_s * V / tightest_m
     reserve = settings.reserve * (1.0 + known.turns_unknown + ROLL_RESERVE * turned)
     planned_m = min(tightest_m * (1.0 + reserve), widest_m)
@@ -494,14 +513,13 @@ def limits_of(settings: Settings, vehicle: VehicleModel, before: Limits) -> Limi
     planned, hold = half_degrees(clip(bank_for(known, V / planned_m), limit_deg)), half_degrees(hold_deg)
     reversal_s2 = before.reversal_s2
     if is_other or planned != before.planned_half_deg or hold != before.hold_half_deg:
-        reversal_s2 = turn_onset(roll_time_s, rate_deg_s, -0.5 * planned, 0.5 * hold, limit_deg).variance_s2
+        reversal_s2 = turn_onset(roll, -0.5 * planned, 0.5 * hold, limit_deg).variance_s2
     return Limits(
         revision=vehicle.revision,
         wind_differs=wind_differs,
         wind_east_m_s=east,
         wind_north_m_s=north,
-        roll_time_s=roll_time_s,
-        roll_rate_deg_s=rate_deg_s,
+        roll=roll,
         limit_deg=limit_deg,
         turns=TurnLimits(V, tightest_m, planned_m),
         hold_deg=hold_deg,
@@ -554,40 +572,71 @@ def half_degrees(bank_deg: float) -> int:
     return ceil(2.0 * bank_deg - 0.5)
 
 
-def rounded_onset(
-    roll_time_s: float, rate_deg_s: float, bank_deg: float, target_deg: float, limit_deg: float
-) -> TurnOnset:
+def rounded_onset(roll: RollValues, bank_deg: float, target_deg: float, limit_deg: float) -> TurnOnset:
     """`turn_onset` for whole half degrees."""
-    begin_deg, end_deg = 0.5 * half_degrees(bank_deg), 0.5 * half_degrees(target_deg)
-    return turn_onset(roll_time_s, rate_deg_s, begin_deg, end_deg, limit_deg)
+    return turn_onset(roll, 0.5 * half_degrees(bank_deg), 0.5 * half_degrees(target_deg), limit_deg)
 
 
 def lead_s(limits: Limits, bank_deg: float, target_deg: float) -> float:
     """The delay of a change of bank."""
-    return rounded_onset(limits.roll_time_s, limits.roll_rate_deg_s, bank_deg, target_deg, limits.limit_deg).lead_s
+    return rounded_onset(limits.roll, bank_deg, target_deg, limits.limit_deg).lead_s
+
+
+def is_changed(roll: RollValues, before: RollValues) -> bool:
+    """Whether a roll response differs so much that delays of changes of bank must be computed again."""
+    time_s, lag_s = before.time_s, before.lag_s
+    return (
+        abs(roll.time_s - time_s) > ROLL_CHANGED * time_s
+        or abs(roll.rate_deg_s - before.rate_deg_s) > ROLL_CHANGED * before.rate_deg_s
+        or abs(roll.lag_s - lag_s) > ROLL_CHANGED * time_s
+    )
 
 
 def is_other_roll(limits: Limits, before: Limits) -> bool:
     """Whether delays of changes of bank are others than before."""
-    same = limits.roll_time_s == before.roll_time_s and limits.roll_rate_deg_s == before.roll_rate_deg_s
+    a, b = limits.roll, before.roll
+    same = a.time_s == b.time_s and a.rate_deg_s == b.rate_deg_s and a.lag_s == b.lag_s
     return not (same and limits.limit_deg == before.limit_deg)
 
 
-def leads_to(limits: Limits, leads: Leads, bank_deg: float, route: Route) -> Leads:
-    """The delays of changes from a bank to those of the pieces of a route; those that are known are not recomputed."""
-    bank, side, hold, planned = half_degrees(bank_deg), route.side, limits.hold_half_deg, limits.planned_half_deg
-    u3 = last_control(route)
+def leads_to(limits: Limits, leads: Leads, now: Bank, route: Route) -> Leads:
+    """How changes from a bank to those of the pieces of a route are delayed; what is known is not computed again."""
+    bank, rate, u3 = half_degrees(now.bank_deg), half_degrees(now.rate_deg_s / RATE_STEPS), last_control(route)
     first, second = half_deg_on(limits, route, route.current), half_deg_on(limits, route, route.second)
-    last = side * hold if u3 == ABSENT else -u3 * planned
-    if leads.bank == bank and leads.current == first and leads.next == second and leads.last == last:
+    last = route.side * limits.hold_half_deg if u3 == ABSENT else -u3 * limits.planned_half_deg
+    if (
+        leads.bank == bank
+        and leads.rate == rate
+        and leads.current == first
+        and leads.next == second
+        and leads.last == last
+    ):
         return leads
-    time_s, rate_deg_s, limit_deg, begin_deg = limits.roll_time_s, limits.roll_rate_deg_s, limits.limit_deg, 0.5 * bank
-    first_s = turn_onset(time_s, rate_deg_s, begin_deg, 0.5 * first, limit_deg).lead_s
-    second_s = first_s if second == first else turn_onset(time_s, rate_deg_s, begin_deg, 0.5 * second, limit_deg).lead_s
-    if last in (first, second):
-        return Leads(bank, first, second, last, first_s, second_s, first_s if last == first else second_s)
-    last_s = turn_onset(time_s, rate_deg_s, begin_deg, 0.5 * last, limit_deg).lead_s
-    return Leads(bank, first, second, last, first_s, second_s, last_s)
+    roll, limit_deg = limits.roll, limits.limit_deg
+    now = Bank(0.5 * bank, 0.5 * RATE_STEPS * rate)
+    there = tan(radians(now.bank_deg))
+    first_s = small_onset(roll).lead_s
+    first_missing_s = turn_delay(roll, now, 0.5 * first, limit_deg).missing_s
+    tangent = tan(radians(0.5 * first))
+    # Where the bank goes without a command.
+    coasted_deg = clip(now.bank_deg + coasting_s(roll) * now.rate_deg_s, limit_deg)
+    current_s = first_s
+    if abs(0.5 * first - coasted_deg) > SMALL_CHANGE_DEG:
+        current_s = max(first_missing_s / (tangent - tan(radians(coasted_deg))), 0.5 * first_s)
+    elif rate == 0 and first != bank:
+        current_s = first_missing_s / (tangent - there)
+    more = tangent - first_missing_s / current_s - there if current_s > 0.0 and first != bank else 0.0
+    next_s = early_s(roll, now, limit_deg, first, first_missing_s, second) - current_s
+    last_s = early_s(roll, now, limit_deg, first, first_missing_s, last) - current_s
+    return Leads(bank, rate, first, second, last, current_s, more, next_s, last_s)
+
+
+def early_s(roll: RollValues, now: Bank, limit_deg: float, first: int, first_missing_s: float, second: int) -> float:
+    """The time from now to the end of a piece at which the bank of another must be commanded."""
+    if first == second:
+        return 0.0
+    missing_s = turn_delay(roll, now, 0.5 * second, limit_deg).missing_s
+    return (first_missing_s - missing_s) / (tan(radians(0.5 * first)) - tan(radians(0.5 * second)))
 
 
 def half_deg_on(limits: Limits, route: Route, piece: RoutePiece) -> int:
@@ -599,6 +648,13 @@ def half_deg_on(limits: Limits, route: Route, piece: RoutePiece) -> int:
     V, planned_deg = limits.turns.airspeed_m_s, 0.5 * limits.planned_half_deg
     rate = rate_at_bank(planned_deg, V) * route.turn_radius_m / piece.radius_m
     return -piece.u * half_degrees(bank_at_rate(rate, V))
+
+
+def turning_more(estimate: Estimate, more: float) -> Estimate:
+    """The estimate with a turn rate that is larger by `more` g/V, positive to the right."""
+    V = estimate.airspeed_m_s
+    rate = estimate.turn_rate - estimate.turning.ratio * STANDARD_GRAVITY_M_S2 * more / V
+    return estimate._replace(turn_rate=rate)
 
 
 def relative_state(settings: Settings, estimate: Estimate) -> RelativeState:
@@ -645,8 +701,8 @@ def advance_plan(memory: Memory, settings: Settings) -> Memory:
     path = memory.path
     # Pieces are dropped that are complete, in a plan of its own at most three.
     while True:
-        leads = leads_to(limits, leads, estimate.bank_deg, route)
-        state = relative_state(settings, estimate_after(estimate, leads.current_s))
+        leads = leads_to(limits, leads, Bank(estimate.bank_deg, memory.sensing.bank_rate_deg_s), route)
+        state = relative_state(settings, estimate_after(turning_more(estimate, leads.more), leads.current_s))
         left_s, early_s = remaining_s(route, state, left_s), early_end_s(route, leads)
         if is_holding(route) or left_s > early_s + ROUNDING_S:
             break
@@ -676,10 +732,10 @@ def measure_gusts_anew(sensing: Sensing) -> Sensing:
 
 def early_end_s(route: Route, leads: Leads) -> float:
     """How long before its end the current piece must end, since the next bank takes effect with a delay."""
-    early_s = leads.next_s - leads.current_s
+    early_s = leads.next_s
     if route.second.u == 0 and route.third.u != ABSENT and route.third.u != route.current.u:
         # A straight line between opposite turns may be shorter than the reversal, which then begins before its end.
-        early_s = max(early_s, leads.last_s - leads.current_s - 0.5 * route.second.time_s)
+        early_s = max(early_s, leads.last_s - 0.5 * route.second.time_s)
     return max(early_s, 0.0)
 
 

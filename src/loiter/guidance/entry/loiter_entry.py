@@ -95,7 +95,7 @@ class LoiterEntry:
         )
         turn_ratio = EXPECTED_TURN_RATIO if identify else 1.0
         declared = VehicleEstimates(
-            roll=RollValues(roll.time_s, roll.rate_deg_s),
+            roll=RollValues(roll.time_s, roll.rate_deg_s, 0.0),
             delay_s=delay_s,
             turn_ratio=turn_ratio,
             quick_turn_ratio=turn_ratio,
@@ -113,7 +113,7 @@ class LoiterEntry:
         wind_known_s = 0.0 if wind is None else DECLARED_WIND_S
         self._declared = identification_step.settings_of(declared, limit_deg, wind_known_s)
         self._identification = identification_step.first_identification(self._declared)
-        self._vehicle = VehicleModel(0, 0.0, declared)
+        self._vehicle = VehicleModel(0, 0.0, 0.0, declared)
         self._memory = law_step.first_memory(self._settings, self._vehicle)
 
     @classmethod

@@ -102,7 +102,7 @@ class Identification(NamedTuple):
 
 
 NO_AVERAGE = Average(0.0, 0.0)
-NO_VEHICLE = VehicleEstimates(RollValues(0.0, 0.0), *(12 * (0.0,)))
+NO_VEHICLE = VehicleEstimates(RollValues(0.0, 0.0, 0.0), *(12 * (0.0,)))
 NO_IDENTIFICATION = Identification(
     stamps=Stamps(FIRST_CLOCK, 0.0, -inf),
     roll=NO_ROLL,
@@ -145,7 +145,7 @@ def identify(
 ) -> tuple[Identification, VehicleModel]:
     """The memory, and what is known of the vehicle, as in `advance_identification`."""
     memory = advance_identification(memory, settings, measurement, command_deg, dt)
-    return memory, VehicleModel(memory.revision, memory.roll.bank_deg, memory.estimates)
+    return memory, VehicleModel(memory.revision, memory.roll.bank_deg, memory.roll.bank_rate_deg_s, memory.estimates)
 
 
 def advance_identification(

@@ -19,16 +19,24 @@ from math import exp, log, sqrt
 from typing import Annotated, NamedTuple
 
 from loiter.guidance.vehicle.limits import clip
-from loiter.guidance.vehicle.rolling import RollValues, bank_after
+from loiter.guidance.vehicle.rolling import Bank, RollValues, roll_after
 
 # The models: so many time constants and rate limits, of which each is the next multiple of the one before it; the
 # declared ones have these indices.
 TIMES, TIME_RATIO, DECLARED_TIME = 5, 1.8, 3
 RATES, RATE_RATIO, DECLARED_RATE = 6, 1.45, 3
-MODELS = TIMES * RATES
+
+# Each is of first order and, with these multiples of its time constant and of that as the lag of its rate, of second
+# order: as quick to 63 %, with an overshoot of 13 %.
+ORDERS, SECOND_TIME, SECOND_LAG = 2, 0.71, 0.58
+KINDS = TIMES * ORDERS
+MODELS = KINDS * RATES
 
 # The models make steps of this length, seconds. The delays are whole steps, from the longest one down to 0.
 STEP_S, DELAYS = 0.1, 14
+
+# A step of a model of second order is computed in so many.
+SUBSTEPS = 32
 
 # The least time constant, seconds, and the largest rate limit, degrees per second, that count as declared; a longer
 # delay than those of the grid counts as the longest of them.
@@ -44,7 +52,7 @@ RATE_CAUTION = 0.8
 
 # Prediction errors have this standard deviation, degrees, and are correlated over this time, seconds; larger ones than
 # `LARGEST_ERROR_DEG` count as that.
-ERROR_DEG, CORRELATION_S, LARGEST_ERROR_DEG = 2.0, 0.2, 10.0
+ERROR_DEG, CORRELATION_S, LARGEST_ERROR_DEG = 1.4, 0.2, 10.0
 
 # Errors are forgotten over this time, seconds, while the predictions differ by more than `EXCITED_DEG`.
 MEMORY_S, EXCITED_DEG = 10.0, 3.0
@@ -79,8 +87,38 @@ class Unknown(NamedTuple):
     variance: float
 
 
+class ModelStep(NamedTuple):
+    """A step of a model: the changes of bank and its rate by each degree to the command, and by each degree per second.
+
+    `lag_s` is the lag of the bank rate. Without one all but the first number are 0, and the rate is not used.
+    """
+
+    change: float
+    change_s: float
+    rate: float
+    rate_kept: float
+    lag_s: float
+
+
+def step_of(time_s: float, lag_s: float) -> ModelStep:
+    """The step of a model without its limit."""
+    if lag_s == 0.0:
+        return ModelStep(1.0 - exp(-STEP_S / time_s), 0.0, 0.0, 0.0, 0.0)
+    one, other, dt = Bank(1.0, 0.0), Bank(0.0, 1.0), STEP_S / SUBSTEPS
+    for _ in range(SUBSTEPS):
+        one, other = decayed(one, time_s, lag_s, dt), decayed(other, time_s, lag_s, dt)
+    return ModelStep(1.0 - one.bank_deg, other.bank_deg, -one.rate_deg_s, other.rate_deg_s, lag_s)
+
+
+def decayed(now: Bank, time_s: float, lag_s: float, dt: float) -> Bank:
+    """A bank and its rate after a short step under a command of 0."""
+    half_deg = now.bank_deg + 0.5 * dt * now.rate_deg_s
+    half_deg_s = now.rate_deg_s - 0.5 * dt * (now.bank_deg / time_s + now.rate_deg_s) / lag_s
+    return Bank(now.bank_deg + dt * half_deg_s, now.rate_deg_s - dt * (half_deg / time_s + half_deg_s) / lag_s)
+
+
 class RollSettings(NamedTuple):
-    """The models: the share of the difference to the command that each flies in a step, and the limit of that, degrees.
+    """The models: the step that each makes, and the limit of the change of bank in it, degrees.
 
     Time constants and rate limits are unknown by their logarithms. `delay_logs` are the logarithms of the probabilities
     of the delays as declared.
@@ -89,16 +127,16 @@ class RollSettings(NamedTuple):
     time: Unknown
     rate: Unknown
     delay: Unknown
-    shares: Annotated[tuple[float, ...], TIMES]
+    kinds: Annotated[tuple[ModelStep, ...], KINDS]
     limits_deg: Annotated[tuple[float, ...], RATES]
     delay_logs: Annotated[tuple[float, ...], DELAYS]
 
 
 class RollModel(NamedTuple):
-    """A model: its bank at the last step, and that before all commands that are kept, degrees."""
+    """A model at the last step, and before all commands that are kept."""
 
-    bank_deg: float
-    earliest_deg: float
+    present: Bank
+    earliest: Bank
 
 
 class Models(NamedTuple):
@@ -145,12 +183,16 @@ class RollMemory(NamedTuple):
     """
 
     bank_deg: float
+    bank_rate_deg_s: float
     waiting_s: float
     commanded: float
     since_s: float
     measured: MeasuredBank
     models: Models
     weights: Weights
+
+
+NO_MODEL_STEP = ModelStep(0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 def roll_settings(declared: RollValues, delay_s: float) -> RollSettings:
@@ -160,14 +202,16 @@ def roll_settings(declared: RollValues, delay_s: float) -> RollSettings:
     rate = unknown_of(log(rate_deg_s), DECLARED_RATE, log(RATE_RATIO), SPREAD, RATES)
     delay_s = min(delay_s, STEP_S * (DELAYS - 1))
     delay = unknown_of(delay_s, DELAYS - 1 - delay_s / STEP_S, -STEP_S, DELAY_SPREAD_S, DELAYS)
-    shares, limits_deg, delay_logs = (0.0,) * TIMES, (0.0,) * RATES, (0.0,) * DELAYS
+    kinds, limits_deg, delay_logs = (NO_MODEL_STEP,) * KINDS, (0.0,) * RATES, (0.0,) * DELAYS
     for i in range(TIMES):
-        shares = (*shares[1:], 1.0 - exp(-STEP_S / exp(value_at(time, i))))
+        one_s = exp(value_at(time, i))
+        kinds = (*kinds[1:], step_of(one_s, 0.0))
+        kinds = (*kinds[1:], step_of(SECOND_TIME * one_s, SECOND_LAG * one_s))
     for i in range(RATES):
         limits_deg = (*limits_deg[1:], STEP_S * exp(value_at(rate, i)))
     for i in range(DELAYS):
         delay_logs = (*delay_logs[1:], declared_log(delay, i))
-    return RollSettings(time=time, rate=rate, delay=delay, shares=shares, limits_deg=limits_deg, delay_logs=delay_logs)
+    return RollSettings(time=time, rate=rate, delay=delay, kinds=kinds, limits_deg=limits_deg, delay_logs=delay_logs)
 
 
 def unknown_of(declared: float, index: float, step: float, spread: float, count: int) -> Unknown:
@@ -217,15 +261,18 @@ def variance_of(sums: Sums) -> float:
 
 def estimate_of(unknown: Unknown, sums: Sums) -> float:
     """The weighted mean of an unknown, without the bias that is left."""
-    left = min(max(variance_of(sums) / unknown.variance, 0.0), 1.0)
-    return value_at(unknown, mean_of(sums) - left * unknown.bias)
+    return value_at(unknown, mean_of(sums) - (1.0 - measured_share(unknown, sums)) * unknown.bias)
+
+
+def measured_share(unknown: Unknown, sums: Sums) -> float:
+    """To what extent measurements count instead of what is declared, from 0 to 1."""
+    return 1.0 - min(max(variance_of(sums) / unknown.variance, 0.0), 1.0)
 
 
 def cautious_estimate(unknown: Unknown, sums: Sums) -> float:
     """`estimate_of`, lower by `RATE_CAUTION` standard deviations; what is declared is believed until measured."""
-    variance = max(variance_of(sums), 0.0)
-    measured = 1.0 - min(variance / unknown.variance, 1.0)
-    return estimate_of(unknown, sums) - RATE_CAUTION * measured * unknown.step * sqrt(variance)
+    deviation = unknown.step * sqrt(max(variance_of(sums), 0.0))
+    return estimate_of(unknown, sums) - RATE_CAUTION * measured_share(unknown, sums) * deviation
 
 
 def first_roll(settings: RollSettings) -> RollMemory:
@@ -242,11 +289,12 @@ def begin_roll(memory: RollMemory, settings: RollSettings) -> RollMemory:
 
 def constant_models(bank_deg: float) -> Models:
     """The models at a bank that has always been this."""
-    return Models((bank_deg,) * DELAYS, (RollModel(bank_deg, bank_deg),) * MODELS)
+    return Models((bank_deg,) * DELAYS, (RollModel(Bank(bank_deg, 0.0), Bank(bank_deg, 0.0)),) * MODELS)
 
 
 NO_ROLL = RollMemory(
     bank_deg=0.0,
+    bank_rate_deg_s=0.0,
     waiting_s=0.0,
     commanded=0.0,
     since_s=0.0,
@@ -257,7 +305,7 @@ NO_ROLL = RollMemory(
         log_total=0.0,
         variance_deg2=0.0,
         probabilities=(0.0,) * MODELS,
-        estimate=RollEstimate(RollValues(0.0, 0.0), 0.0),
+        estimate=RollEstimate(RollValues(0.0, 0.0, 0.0), 0.0),
     ),
 )
 
@@ -273,9 +321,15 @@ def fly_models(memory: RollMemory, settings: RollSettings, command_deg: float, d
     since_s, missing_s = memory.since_s + dt, STEP_S - waiting_s
     if dt < missing_s:
         # Between the steps of the models the present bank is that of the estimated response.
-        bank_deg = bank_after(*memory.weights.estimate.roll, memory.bank_deg, command_deg, dt)
+        now = roll_after(memory.weights.estimate.roll, Bank(memory.bank_deg, memory.bank_rate_deg_s), command_deg, dt)
         waiting_s, commanded = waiting_s + dt, commanded + dt * command_deg
-        return memory._replace(bank_deg=bank_deg, waiting_s=waiting_s, commanded=commanded, since_s=since_s)
+        return memory._replace(
+            bank_deg=now.bank_deg,
+            bank_rate_deg_s=now.rate_deg_s,
+            waiting_s=waiting_s,
+            commanded=commanded,
+            since_s=since_s,
+        )
     mean_deg = (commanded + missing_s * command_deg) / STEP_S
     memory = memory._replace(models=step_models(memory.models, settings, mean_deg))
     if memory.measured.since_s > 0.0:
@@ -284,13 +338,32 @@ def fly_models(memory: RollMemory, settings: RollSettings, command_deg: float, d
     while left_s >= STEP_S:
         memory = memory._replace(models=step_models(memory.models, settings, command_deg))
         left_s -= STEP_S
-    bank_deg = 0.0
-    for i in range(MODELS):
-        bank_deg += memory.weights.probabilities[i] * memory.models.models[i].bank_deg
-    bank_deg = bank_after(*memory.weights.estimate.roll, bank_deg, command_deg, left_s)
+    now = roll_after(memory.weights.estimate.roll, mean_bank(memory, settings), command_deg, left_s)
     commanded = left_s * command_deg
-    memory = memory._replace(bank_deg=bank_deg, waiting_s=left_s, commanded=commanded, since_s=since_s)
+    memory = memory._replace(
+        bank_deg=now.bank_deg, bank_rate_deg_s=now.rate_deg_s, waiting_s=left_s, commanded=commanded, since_s=since_s
+    )
     return memory._replace(measured=NOTHING_MEASURED)
+
+
+def mean_bank(memory: RollMemory, settings: RollSettings) -> Bank:
+    """The weighted means of the banks of the models, and of their rates, as far as these go on."""
+    bank_deg, lag_s, coasted_deg = 0.0, 0.0, 0.0
+    for i in range(KINDS):
+        for j in range(RATES):
+            probability, now = memory.weights.probabilities[i * RATES + j], memory.models.models[i * RATES + j].present
+            bank_deg += probability * now.bank_deg
+            lag_s += probability * settings.kinds[i].lag_s
+            coasted_deg += probability * settings.kinds[i].lag_s * now.rate_deg_s
+    return Bank(bank_deg, coasted_deg / lag_s if lag_s > 0.0 else 0.0)
+
+
+def model_step(kind: ModelStep, limit_deg: float, now: Bank, command_deg: float) -> Bank:
+    """A model after a step under a command."""
+    missing_deg = command_deg - now.bank_deg
+    change_deg = clip(kind.change * missing_deg + kind.change_s * now.rate_deg_s, limit_deg)
+    rate_deg_s = clip(kind.rate * missing_deg + kind.rate_kept * now.rate_deg_s, limit_deg / STEP_S)
+    return Bank(now.bank_deg + change_deg, rate_deg_s)
 
 
 def add_measured_bank(memory: RollMemory, measured_deg: float) -> RollMemory:
@@ -304,13 +377,13 @@ def add_measured_bank(memory: RollMemory, measured_deg: float) -> RollMemory:
 def step_models(models: Models, settings: RollSettings, command_deg: float) -> Models:
     """All models after a step under the mean command."""
     oldest_deg = models.commands_deg[0]
-    for i in range(TIMES):
-        share = settings.shares[i]
+    for i in range(KINDS):
+        kind = settings.kinds[i]
         for j in range(RATES):
-            (bank_deg, earliest_deg), limit_deg = models.models[0], settings.limits_deg[j]
-            bank_deg += clip(share * (command_deg - bank_deg), limit_deg)
-            earliest_deg += clip(share * (oldest_deg - earliest_deg), limit_deg)
-            models = models._replace(models=(*models.models[1:], RollModel(bank_deg, earliest_deg)))
+            one, limit_deg = models.models[0], settings.limits_deg[j]
+            present = model_step(kind, limit_deg, one.present, command_deg)
+            earliest = model_step(kind, limit_deg, one.earliest, oldest_deg)
+            models = models._replace(models=(*models.models[1:], RollModel(present, earliest)))
     return models._replace(commands_deg=(*models.commands_deg[1:], command_deg))
 
 
@@ -322,15 +395,16 @@ def update_weights(weights: Weights, settings: RollSettings, models: Models, mea
     measured_deg, done, largest = measured.bank_deg, measured.after_s / STEP_S, LARGEST_ERROR_DEG * LARGEST_ERROR_DEG
     errors, squares, index, index_square = 0.0, 0.0, 0.0, 0.0
     time, rate = NO_SUMS, NO_SUMS
-    for i in range(TIMES):
-        share, time_log = settings.shares[i], declared_log(settings.time, i) - log_total
+    lag_s, second = 0.0, 0.0
+    for i in range(KINDS):
+        kind, time_log = settings.kinds[i], declared_log(settings.time, i // ORDERS) - log_total
         for j in range(RATES):
             limit_deg, model_log = settings.limits_deg[j], time_log + declared_log(settings.rate, j)
-            bank_deg, pairs, total = models.models[i * RATES + j].earliest_deg, weights.logs[0], 0.0
+            now, pairs, total = models.models[i * RATES + j].earliest, weights.logs[0], 0.0
             for k in range(DELAYS):
-                change = clip(share * (models.commands_deg[k] - bank_deg), limit_deg)
-                error = bank_deg + done * change - measured_deg
-                bank_deg, square = bank_deg + change, error * error
+                after = model_step(kind, limit_deg, now, models.commands_deg[k])
+                error = now.bank_deg + done * (after.bank_deg - now.bank_deg) - measured_deg
+                now, square = after, error * error
                 errors, squares = errors + error, squares + square
                 one = kept * pairs[0] + scale * (square if square < largest else largest)
                 weight = exp(model_log + settings.delay_logs[k] + one)
@@ -338,10 +412,14 @@ def update_weights(weights: Weights, settings: RollSettings, models: Models, mea
                 total, index, index_square = total + weight, index + k * weight, index_square + k * k * weight
             weights = weights._replace(logs=(*weights.logs[1:], pairs))
             weights = weights._replace(probabilities=(*weights.probabilities[1:], total))
-            time, rate = with_index(time, i, total), with_index(rate, j, total)
+            time, rate = with_index(time, i // ORDERS, total), with_index(rate, j, total)
+            lag_s, second = lag_s + total * kind.lag_s, second + (total if kind.lag_s > 0.0 else 0.0)
     for _ in range(MODELS):
         weights = weights._replace(probabilities=(*weights.probabilities[1:], weights.probabilities[0] / time.total))
-    roll = RollValues(exp(estimate_of(settings.time, time)), exp(cautious_estimate(settings.rate, rate)))
+    # A roll of first order is declared.
+    share = measured_share(settings.time, time) / time.total
+    time_s = exp(estimate_of(settings.time, time)) * (1.0 + share * second * (SECOND_TIME - 1.0))
+    roll = RollValues(time_s, exp(cautious_estimate(settings.rate, rate)), share * lag_s)
     delay_s = max(estimate_of(settings.delay, Sums(time.total, index, index_square)), 0.0)
     mean = errors / (MODELS * DELAYS)
     return weights._replace(

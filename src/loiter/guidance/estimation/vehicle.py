@@ -43,6 +43,7 @@ class VehicleModel(NamedTuple):
 
     revision: int
     bank_deg: float
+    bank_rate_deg_s: float
     estimates: VehicleEstimates
 
 
@@ -57,6 +58,6 @@ def remove_bias(known: VehicleEstimates, state: State) -> State:
 
 def fly_as_declared(vehicle: VehicleModel, command_deg: float, dt: float) -> VehicleModel:
     """The model of a vehicle that is as declared after `dt` seconds under a command; `identify` is not needed then."""
-    revision, bank_deg, known = vehicle
+    revision, bank_deg, rate_deg_s, known = vehicle
     bank_deg = bank_after(known.roll.time_s, known.roll.rate_deg_s, bank_deg, command_deg, dt)
-    return VehicleModel(revision, bank_deg, known)
+    return VehicleModel(revision, bank_deg, rate_deg_s, known)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import exp, inf, log, radians, sqrt, tan
+from math import exp, inf, radians, sqrt, tan
 from typing import NamedTuple
 
 from loiter.errors import InvalidArgument, as_float, not_negative
@@ -13,15 +13,17 @@ from loiter.guidance.vehicle.limits import clip
 # than makes the time constant this, seconds: a roll that is quick gains nothing, and errors would be amplified.
 COMMAND_GAIN, QUICKEST_S = 2.5, 0.15
 
-# A smaller change of bank, degrees, takes effect like an infinitely small one where only the last range is passed.
-SMALL_CHANGE_DEG = 5.0
+# The damping of a bank whose rate has a lag, under these commands.
+DAMPING = 0.8
 
-# Gauss-Legendre points and weights on [0, 1], and Gauss-Laguerre points x, exp(-x) and weights.
-LEGENDRE_POINTS = (0.5 - 0.5 * sqrt(0.6), 0.5, 0.5 + 0.5 * sqrt(0.6))
-LEGENDRE_WEIGHTS = (5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0)
-LAGUERRE_POINTS = (0.41577455678347908, 2.2942803602790418, 6.2899450829374794)
-LAGUERRE_SHARES = (exp(-LAGUERRE_POINTS[0]), exp(-LAGUERRE_POINTS[1]), exp(-LAGUERRE_POINTS[2]))
-LAGUERRE_WEIGHTS = (0.71109300992917301, 0.27851773356924085, 0.010389256501586136)
+# The largest number of steps in which a change of bank is flown.
+STEPS = 24
+
+# These last for the change at the limit of the roll rate, and for so many time constants more.
+SETTLING = 1.5
+
+# A smaller change of bank, degrees, takes effect like an infinitely small one where neither it nor its rate is limited.
+SMALL_CHANGE_DEG = 5.0
 
 
 class TurnOnset(NamedTuple):
@@ -36,10 +38,32 @@ class TurnOnset(NamedTuple):
 
 
 class RollValues(NamedTuple):
-    """A roll response as two numbers: `Roll` without checks."""
+    """A roll response as numbers: `Roll` without checks, and the lag of the bank rate, seconds.
+
+    lag rate' = (command - bank)/time - rate, limited to `rate_deg_s`. With a lag of 0 it is of first order.
+    """
 
     time_s: float
     rate_deg_s: float
+    lag_s: float
+
+
+class Bank(NamedTuple):
+    """A bank and its rate, which counts only where that has a lag; degrees and degrees per second."""
+
+    bank_deg: float
+    rate_deg_s: float
+
+
+class TurnDelay(NamedTuple):
+    """How a change of bank delays a turn.
+
+    With w the turn rate divided by g/V, and w1 the one after the change: `missing_s` is the integral of w1 - w over
+    time, and `moment_s2` that of the same times the time.
+    """
+
+    missing_s: float
+    moment_s2: float
 
 
 @dataclass(frozen=True)
@@ -60,11 +84,11 @@ class Roll:
 
     def demand_deg(self, bank_deg: float, target_deg: float, limit_deg: float) -> float:
         """`demand_deg` for this response."""
-        return demand_deg(self.time_s, bank_deg, target_deg, limit_deg)
+        return demand_deg(RollValues(self.time_s, self.rate_deg_s, 0.0), Bank(bank_deg, 0.0), target_deg, limit_deg)
 
     def onset(self, bank_deg: float, target_deg: float, limit_deg: float) -> TurnOnset:
         """`turn_onset` for this response."""
-        return turn_onset(self.time_s, self.rate_deg_s, bank_deg, target_deg, limit_deg)
+        return turn_onset(RollValues(self.time_s, self.rate_deg_s, 0.0), bank_deg, target_deg, limit_deg)
 
     def bank_after(self, bank_deg: float, command_deg: float, time_s: float) -> float:
         """`bank_after` for this response."""
@@ -79,14 +103,24 @@ def command_gain(roll_time_s: float) -> float:
     return min(max(roll_time_s / QUICKEST_S, 1.0), COMMAND_GAIN)
 
 
-def demand_deg(roll_time_s: float, bank_deg: float, target_deg: float, limit_deg: float) -> float:
+def rate_gain_s(roll: RollValues) -> float:
+    """By how much less is commanded for each degree per second of the bank rate, seconds.
+
+    With the gain K the bank then obeys tau lag bank'' + (tau + this) bank' + K (bank - target) = 0, with the damping
+    `DAMPING` at least. It is 0 without a lag.
+    """
+    return max(2.0 * DAMPING * sqrt(command_gain(roll.time_s) * roll.time_s * roll.lag_s) - roll.time_s, 0.0)
+
+
+def demand_deg(roll: RollValues, now: Bank, target_deg: float, limit_deg: float) -> float:
     """The command that brings the bank to a target `command_gain` times as fast as commanding the target would.
 
     It lies beyond the target, but never beyond the bank limit.
     """
-    if roll_time_s == 0.0:
+    if roll.time_s == 0.0:
         return target_deg
-    return clip(bank_deg + command_gain(roll_time_s) * (target_deg - bank_deg), limit_deg)
+    change_deg = command_gain(roll.time_s) * (target_deg - now.bank_deg) - rate_gain_s(roll) * now.rate_deg_s
+    return clip(now.bank_deg + change_deg, limit_deg)
 
 
 def bank_after(roll_time_s: float, rate_deg_s: float, bank_deg: float, command_deg: float, time_s: float) -> float:
@@ -105,46 +139,80 @@ def bank_after(roll_time_s: float, rate_deg_s: float, bank_deg: float, command_d
     return command_deg - missing if time_s <= limited_s else command_deg
 
 
-def turn_onset(
-    roll_time_s: float, rate_deg_s: float, bank_deg: float, target_deg: float, limit_deg: float
-) -> TurnOnset:
-    """When a change of bank under `demand_deg` changes the turn rate, which is proportional to tan(bank).
+def roll_after(roll: RollValues, now: Bank, command_deg: float, time_s: float) -> Bank:
+    """The bank after a short time under a constant command; exact without a lag of the bank rate."""
+    if roll.lag_s == 0.0 or time_s == 0.0:
+        return Bank(bank_after(roll.time_s, roll.rate_deg_s, now.bank_deg, command_deg, time_s), now.rate_deg_s)
+    kept = exp(-time_s / roll.lag_s)
+    wanted_deg_s = (command_deg - now.bank_deg - 0.5 * time_s * now.rate_deg_s) / roll.time_s
+    rate_deg_s = clip(wanted_deg_s + kept * (now.rate_deg_s - wanted_deg_s), roll.rate_deg_s)
+    share = roll.lag_s / time_s - kept / (1.0 - kept)
+    return Bank(now.bank_deg + time_s * (rate_deg_s + share * (now.rate_deg_s - rate_deg_s)), rate_deg_s)
 
-    Let m be the missing bank, p the limit of the roll rate, and g how far the bank limit lies beyond the target. The
-    bank changes at the least of p, (m + g)/tau (the command is at the bank limit) and `command_gain` m/tau. As m
-    shrinks these apply in that order. The time at which m is left follows from each in closed form. The mean time at
-    which the parts of the change take effect, and its variance, are integrals over these three ranges, by Gauss's
-    rules.
+
+def turn_delay(roll: RollValues, now: Bank, target_deg: float, limit_deg: float) -> TurnDelay:
+    """How a change of bank under `demand_deg` delays a turn.
+
+    The turn rate is proportional to tan(bank). The change is flown in steps until it is small; the rest is linear.
     """
-    tau, p, gain, m = roll_time_s, rate_deg_s, command_gain(roll_time_s), abs(target_deg - bank_deg)
-    last_s = tau / gain
-    g = max(limit_deg - (target_deg if target_deg >= bank_deg else -target_deg), 0.0)
-    # The missing bank below which a demand is within the bank limit, and that at which the rate leaves its limit.
-    unlimited = g / (gain - 1.0) if gain > 1.0 else inf
-    is_instant = tau == 0.0 and p == inf
-    if is_instant or m == 0.0 or m <= min(unlimited, p * last_s, SMALL_CHANGE_DEG):
-        return TurnOnset(last_s, last_s * last_s)
-    slow = min(max(p * tau - g, p * last_s), m)
-    free = min(unlimited, slow)
-    backward, time_s = -1.0 if target_deg > bank_deg else 1.0, (m - slow) / p
-    whole, mean, square = 0.0, 0.0, 0.0
-    if slow < m:
-        for x, w in zip(LEGENDRE_POINTS, LEGENDRE_WEIGHTS, strict=True):
-            tangent = tan(radians(target_deg + backward * (slow + x * (m - slow))))
-            share, at_s = w * (m - slow) * (1.0 + tangent * tangent), (1.0 - x) * time_s
-            whole, mean, square = whole + share, mean + share * at_s, square + share * at_s * at_s
-    if free < slow:
-        # In the square of a variable the logarithm is smooth where it begins.
-        for x, w in zip(LEGENDRE_POINTS, LEGENDRE_WEIGHTS, strict=True):
-            left = free + x * x * (slow - free)
-            tangent, at_s = tan(radians(target_deg + backward * left)), time_s + tau * log((slow + g) / (left + g))
-            share = 2.0 * x * w * (slow - free) * (1.0 + tangent * tangent)
-            whole, mean, square = whole + share, mean + share * at_s, square + share * at_s * at_s
-    if free > 0.0:
-        time_s += tau * log((slow + g) / (free + g))
-        for x, kept, w in zip(LAGUERRE_POINTS, LAGUERRE_SHARES, LAGUERRE_WEIGHTS, strict=True):
-            tangent, at_s = tan(radians(target_deg + backward * free * kept)), time_s + x * last_s
-            share = w * free * (1.0 + tangent * tangent)
-            whole, mean, square = whole + share, mean + share * at_s, square + share * at_s * at_s
-    lead_s = mean / whole
-    return TurnOnset(lead_s, max(square / whole - lead_s * lead_s, 0.0))
+    gain, braking_s, tangent = command_gain(roll.time_s), rate_gain_s(roll), tan(radians(target_deg))
+    missing_s, moment_s2, time_s, is_limited, left = 0.0, 0.0, 0.0, True, STEPS
+    small_deg = small_change_deg(roll)
+    dt = (abs(target_deg - now.bank_deg) / roll.rate_deg_s + SETTLING * (roll.time_s + braking_s)) / STEPS
+    while dt > 0.0 and left > 0:
+        # The demand at half time.
+        there_deg = now.bank_deg + 0.5 * dt * now.rate_deg_s
+        change_deg = gain * (target_deg - there_deg) - braking_s * now.rate_deg_s
+        is_limited = abs(there_deg + change_deg) > limit_deg
+        if not is_limited and abs(target_deg - now.bank_deg) + roll.lag_s * abs(now.rate_deg_s) < small_deg:
+            break
+        after = roll_after(roll, now, clip(there_deg + change_deg, limit_deg), dt)
+        part_s = dt * (tangent - tan(radians(0.5 * (now.bank_deg + after.bank_deg))))
+        missing_s, moment_s2 = missing_s + part_s, moment_s2 + part_s * (time_s + 0.5 * dt)
+        rate_deg_s = after.rate_deg_s if roll.lag_s > 0.0 else (after.bank_deg - now.bank_deg) / dt
+        now, time_s, left = Bank(after.bank_deg, rate_deg_s), time_s + dt, left - 1
+    slope = radians(1.0 + tangent * tangent)
+    rest = linear_delay(roll, now.bank_deg - target_deg, now.rate_deg_s, is_limited)
+    missing_s += slope * rest.missing_s
+    return TurnDelay(missing_s, moment_s2 + slope * (time_s * rest.missing_s + rest.moment_s2))
+
+
+def small_change_deg(roll: RollValues) -> float:
+    """The largest change of bank that counts as infinitely small: its rate is not limited."""
+    return min(SMALL_CHANGE_DEG, roll.rate_deg_s * roll.time_s / command_gain(roll.time_s))
+
+
+def linear_delay(roll: RollValues, beyond_deg: float, rate_deg_s: float, is_limited: bool) -> TurnDelay:
+    """The delay of a small change of bank from `beyond_deg` beyond the target, in degrees of bank, not in turn rates.
+
+    With a = tau lag/K and b = (tau + rate gain)/K the missing bank m obeys a m'' + b m' + m = 0, so that its integral
+    over time is b m + a m', and that of m t is b times this less a m. A demand at the bank limit has the gain 1.
+    """
+    gain = 1.0 if is_limited else command_gain(roll.time_s)
+    a, b = roll.time_s * roll.lag_s / gain, (roll.time_s + (0.0 if is_limited else rate_gain_s(roll))) / gain
+    missing_s = -b * beyond_deg - a * rate_deg_s
+    return TurnDelay(missing_s, b * missing_s + a * beyond_deg)
+
+
+def coasting_s(roll: RollValues) -> float:
+    """How long the present bank rate goes on in effect, seconds: so far ahead is the bank of a small change."""
+    return roll.time_s * roll.lag_s / (roll.time_s + rate_gain_s(roll)) if roll.lag_s > 0.0 else 0.0
+
+
+def turn_onset(roll: RollValues, bank_deg: float, target_deg: float, limit_deg: float) -> TurnOnset:
+    """When a change of bank from rest, under `demand_deg`, changes the turn rate."""
+    change_deg = target_deg - bank_deg
+    is_limited = abs(bank_deg + command_gain(roll.time_s) * change_deg) > limit_deg
+    if change_deg == 0.0 or (abs(change_deg) <= small_change_deg(roll) and not is_limited):
+        return small_onset(roll)
+    delay = turn_delay(roll, Bank(bank_deg, 0.0), target_deg, limit_deg)
+    change = tan(radians(target_deg)) - tan(radians(bank_deg))
+    lead_s = delay.missing_s / change
+    return TurnOnset(lead_s, max(2.0 * delay.moment_s2 / change - lead_s * lead_s, 0.0))
+
+
+def small_onset(roll: RollValues) -> TurnOnset:
+    """When a small change of bank takes effect."""
+    gain = command_gain(roll.time_s)
+    first_s = (roll.time_s + rate_gain_s(roll)) / gain
+    return TurnOnset(first_s, max(first_s * first_s - 2.0 * roll.time_s * roll.lag_s / gain, 0.0))
