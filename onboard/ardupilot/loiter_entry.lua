@@ -2,7 +2,7 @@
 --
 -- Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
 --
--- SHA-256 of the source: 36ba5c4202a9fa99cd848750f19a6ee740e7fdb9647cb1ecc93782ca2c06c37a
+-- SHA-256 of the source: dbf4c37d388999cd9f47ed15745aec96ea297f71d4f865539852ae120c70ebfd
 --
 -- When a switch asks for it, this script flies a plane onto the holding circle around its present target in least
 -- time, and then leaves the circle to ArduPlane: loiter_entry.md. It works by GUIDED_CHANGE_HEADING in GUIDED: the target
@@ -195,14 +195,21 @@ law.NO_LIMITS = {revision = -1, wind_differs = false, wind_east_m_s = 0.0, wind_
 -- QUICKEST_S = 0.15
 -- COMMAND_GAIN = 2.5
 
+-- The damping of a bank whose rate has a lag, under these commands.
+-- DAMPING = 0.8
+
 -- A smaller change of bank, degrees, takes effect like an infinitely small one where neither it nor its rate is
 -- limited.
 -- SMALL_CHANGE_DEG = 5.0
 
--- The damping of a bank whose rate has a lag, under these commands.
--- DAMPING = 0.8
+-- Gauss-Legendre points and weights on [0, 1], and Gauss-Laguerre points x, exp(-x) and weights.
+law.LEGENDRE_POINTS = {0.1127016653792583, 0.5, 0.8872983346207417}
+law.LEGENDRE_WEIGHTS = {0.2777777777777778, 0.4444444444444444, 0.2777777777777778}
+law.LAGUERRE_POINTS = {0.4157745567834791, 2.294280360279042, 6.2899450829374794}
+law.LAGUERRE_SHARES = {0.6598290076917097, 0.10083393126672065, 0.0018548618076203868}
+law.LAGUERRE_WEIGHTS = {0.711093009929173, 0.27851773356924087, 0.010389256501586137}
 
--- The largest number of steps in which a change of bank is flown.
+-- The largest number of steps in which a change of a bank whose rate has a lag is flown.
 -- STEPS = 24
 
 -- These last for the change at the limit of the roll rate, and for so many time constants more.
@@ -559,11 +566,6 @@ function law.command_gain(roll_time_s)
     return min(max(roll_time_s / 0.15--[[QUICKEST_S]], 1.0), 2.5--[[COMMAND_GAIN]])
 end
 
--- The largest change of bank that counts as infinitely small: its rate is not limited.
-function law.small_change_deg(roll)
-    return min(5.0--[[SMALL_CHANGE_DEG]], roll.rate_deg_s * roll.time_s / law.command_gain(roll.time_s))
-end
-
 -- By how much less is commanded for each degree per second of the bank rate, seconds.
 --
 -- With the gain K the bank then obeys tau lag bank'' + (tau + this) bank' + K (bank - target) = 0, with the damping
@@ -578,6 +580,83 @@ function law.small_onset(roll)
     local gain = law.command_gain(roll.time_s)
     local first_s = (roll.time_s + law.rate_gain_s(roll)) / gain
     return {lead_s = first_s, variance_s2 = max(first_s * first_s - 2.0 * roll.time_s * roll.lag_s / gain, 0.0)}
+end
+
+-- `turn_delay` without a lag of the bank rate.
+--
+-- Let m be the missing bank, p the limit of the roll rate, and g how far the bank limit lies beyond the target. The
+-- bank changes at the least of p, (m + g)/tau (the command is at the bank limit) and `command_gain` m/tau. As m
+-- shrinks these apply in that order. The time at which m is left follows from each in closed form. The times at
+-- which the parts of the change take effect, and the squares of these times, are summed over these three ranges by
+-- Gauss's rules.
+function law.first_order_delay(roll, bank_deg, target_deg, limit_deg)
+    local tau, p, gain, m = roll.time_s, roll.rate_deg_s, law.command_gain(roll.time_s), abs(target_deg - bank_deg)
+    local last_s, change = tau / gain, tan(target_deg * 0.017453292519943295) - tan(bank_deg * 0.017453292519943295)
+    local g = max(limit_deg - (target_deg >= bank_deg and target_deg or -target_deg), 0.0)
+    -- The missing bank below which a demand is within the bank limit, and that at which the rate leaves its limit.
+    local unlimited = gain > 1.0 and g / (gain - 1.0) or huge
+    local is_instant = tau == 0.0 and p == huge
+    if is_instant or m == 0.0 or m <= min(unlimited, p * last_s, 5.0--[[SMALL_CHANGE_DEG]]) then
+        return {missing_s = last_s * change, moment_s2 = last_s * last_s * change}
+    end
+    local slow = min(max(p * tau - g, p * last_s), m)
+    local free = min(unlimited, slow)
+    local backward, time_s = target_deg > bank_deg and -1.0 or 1.0, (m - slow) / p
+    local whole, mean, square = 0.0, 0.0, 0.0
+    local tangent, share, at_s
+    if slow < m then
+        local each_x_1 = {law.LEGENDRE_POINTS[1], law.LEGENDRE_POINTS[2], law.LEGENDRE_POINTS[3]}
+        local each_w_1 = {law.LEGENDRE_WEIGHTS[1], law.LEGENDRE_WEIGHTS[2], law.LEGENDRE_WEIGHTS[3]}
+        for i_1 = 1, 3 do
+            local x = each_x_1[i_1]
+            local w = each_w_1[i_1]
+            tangent = tan((target_deg + backward * (slow + x * (m - slow))) * 0.017453292519943295)
+            share = w * (m - slow) * (1.0 + tangent * tangent)
+            at_s = (1.0 - x) * time_s
+            whole = whole + share
+            mean = mean + share * at_s
+            square = square + share * at_s * at_s
+        end
+    end
+    if free < slow then
+        -- In the square of a variable the logarithm is smooth where it begins.
+        local each_x_2 = {law.LEGENDRE_POINTS[1], law.LEGENDRE_POINTS[2], law.LEGENDRE_POINTS[3]}
+        local each_w_2 = {law.LEGENDRE_WEIGHTS[1], law.LEGENDRE_WEIGHTS[2], law.LEGENDRE_WEIGHTS[3]}
+        for i_2 = 1, 3 do
+            local x = each_x_2[i_2]
+            local w = each_w_2[i_2]
+            local left = free + x * x * (slow - free)
+            tangent = tan((target_deg + backward * left) * 0.017453292519943295)
+            at_s = time_s + tau * log((slow + g) / (left + g))
+            share = 2.0 * x * w * (slow - free) * (1.0 + tangent * tangent)
+            whole = whole + share
+            mean = mean + share * at_s
+            square = square + share * at_s * at_s
+        end
+    end
+    if free > 0.0 then
+        time_s = time_s + tau * log((slow + g) / (free + g))
+        local each_x_3 = {law.LAGUERRE_POINTS[1], law.LAGUERRE_POINTS[2], law.LAGUERRE_POINTS[3]}
+        local each_kept_3 = {law.LAGUERRE_SHARES[1], law.LAGUERRE_SHARES[2], law.LAGUERRE_SHARES[3]}
+        local each_w_3 = {law.LAGUERRE_WEIGHTS[1], law.LAGUERRE_WEIGHTS[2], law.LAGUERRE_WEIGHTS[3]}
+        for i_3 = 1, 3 do
+            local x = each_x_3[i_3]
+            local kept = each_kept_3[i_3]
+            local w = each_w_3[i_3]
+            tangent = tan((target_deg + backward * free * kept) * 0.017453292519943295)
+            at_s = time_s + x * last_s
+            share = w * free * (1.0 + tangent * tangent)
+            whole = whole + share
+            mean = mean + share * at_s
+            square = square + share * at_s * at_s
+        end
+    end
+    return {missing_s = change * mean / whole, moment_s2 = 0.5 * change * square / whole}
+end
+
+-- The largest change of bank that counts as infinitely small: its rate is not limited.
+function law.small_change_deg(roll)
+    return min(5.0--[[SMALL_CHANGE_DEG]], roll.rate_deg_s * roll.time_s / law.command_gain(roll.time_s))
 end
 
 -- `value`, limited to the range from -`limit` to `limit`.
@@ -632,30 +711,29 @@ function law.linear_delay(roll, beyond_deg, rate_deg_s, is_limited)
     return {missing_s = missing_s, moment_s2 = b * missing_s + a * beyond_deg}
 end
 
--- How a change of bank under `demand_deg` delays a turn.
---
--- The turn rate is proportional to tan(bank). The change is flown in steps until it is small; the rest is linear.
-function law.turn_delay(roll, now, target_deg, limit_deg)
+-- `turn_delay` of a bank whose rate has a lag: flown in steps until the change is small; the rest is linear.
+function law.lagging_delay(roll, now, target_deg, limit_deg)
     local gain, braking_s, tangent = law.command_gain(roll.time_s), law.rate_gain_s(roll), tan(target_deg *
             0.017453292519943295)
     local missing_s, moment_s2, time_s, is_limited, left = 0.0, 0.0, 0.0, true, 24--[[STEPS]]
     local small_deg = law.small_change_deg(roll)
+    now = {bank_deg = now.bank_deg, rate_deg_s = law.clip(now.rate_deg_s, roll.rate_deg_s)}
     local dt = (abs(target_deg - now.bank_deg) / roll.rate_deg_s + 1.5--[[SETTLING]] * (roll.time_s + braking_s)) /
             24--[[STEPS]]
-    while dt > 0.0 and left > 0 do
-        -- The demand at half time.
-        local there_deg = now.bank_deg + 0.5 * dt * now.rate_deg_s
-        local change_deg = gain * (target_deg - there_deg) - braking_s * now.rate_deg_s
-        is_limited = abs(there_deg + change_deg) > limit_deg
+    while left > 0 do
+        local change_deg = gain * (target_deg - now.bank_deg) - braking_s * now.rate_deg_s
+        is_limited = abs(now.bank_deg + change_deg) > limit_deg
         if not is_limited and abs(target_deg - now.bank_deg) + roll.lag_s * abs(now.rate_deg_s) < small_deg then
             break
         end
-        local after = law.roll_after(roll, now, law.clip(there_deg + change_deg, limit_deg), dt)
+        local half = law.roll_after(roll, now, law.clip(now.bank_deg + change_deg, limit_deg), 0.5 * dt)
+        -- The demand at half time counts for the whole step.
+        change_deg = gain * (target_deg - half.bank_deg) - braking_s * half.rate_deg_s
+        local after = law.roll_after(roll, now, law.clip(half.bank_deg + change_deg, limit_deg), dt)
         local part_s = dt * (tangent - tan(0.5 * (now.bank_deg + after.bank_deg) * 0.017453292519943295))
         missing_s = missing_s + part_s
         moment_s2 = moment_s2 + part_s * (time_s + 0.5 * dt)
-        local rate_deg_s = roll.lag_s > 0.0 and after.rate_deg_s or (after.bank_deg - now.bank_deg) / dt
-        now = {bank_deg = after.bank_deg, rate_deg_s = rate_deg_s}
+        now = after
         time_s = time_s + dt
         left = left - 1
     end
@@ -665,15 +743,21 @@ function law.turn_delay(roll, now, target_deg, limit_deg)
     return {missing_s = missing_s, moment_s2 = moment_s2 + slope * (time_s * rest.missing_s + rest.moment_s2)}
 end
 
+-- How a change of bank under `demand_deg` delays a turn. The turn rate is proportional to tan(bank).
+function law.turn_delay(roll, now, target_deg, limit_deg)
+    if roll.lag_s == 0.0 then
+        return law.first_order_delay(roll, now.bank_deg, target_deg, limit_deg)
+    end
+    return law.lagging_delay(roll, now, target_deg, limit_deg)
+end
+
 -- When a change of bank from rest, under `demand_deg`, changes the turn rate.
 function law.turn_onset(roll, bank_deg, target_deg, limit_deg)
-    local change_deg = target_deg - bank_deg
-    local is_limited = abs(bank_deg + law.command_gain(roll.time_s) * change_deg) > limit_deg
-    if change_deg == 0.0 or (abs(change_deg) <= law.small_change_deg(roll) and not is_limited) then
+    local change = tan(target_deg * 0.017453292519943295) - tan(bank_deg * 0.017453292519943295)
+    if change == 0.0 then
         return law.small_onset(roll)
     end
     local delay = law.turn_delay(roll, {bank_deg = bank_deg, rate_deg_s = 0.0}, target_deg, limit_deg)
-    local change = tan(target_deg * 0.017453292519943295) - tan(bank_deg * 0.017453292519943295)
     local lead_s = delay.missing_s / change
     return {lead_s = lead_s, variance_s2 = max(2.0 * delay.moment_s2 / change - lead_s * lead_s, 0.0)}
 end

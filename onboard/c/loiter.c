@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 251dc02c22de7602c13ab2226f4a491fcb4b7416496bcad7d5774a558468c767
+ * SHA-256 of the source: 4aeed205f5ae55a913b6287dc616c8b0217ec1a3d3899bd4a50c6a7b8cb0ba44
  */
 #include "loiter.h"
 
@@ -631,15 +631,22 @@ static const Limits NO_LIMITS = {-1, false, REAL(0.0), REAL(0.0), {REAL(0.0), RE
 #define QUICKEST_S REAL(0.15)
 #define COMMAND_GAIN REAL(2.5)
 
+/* The damping of a bank whose rate has a lag, under these commands. */
+#define DAMPING REAL(0.8)
+
 /* A smaller change of bank, degrees, takes effect like an infinitely small one where neither it nor its rate is
  * limited.
  */
 #define SMALL_CHANGE_DEG REAL(5.0)
 
-/* The damping of a bank whose rate has a lag, under these commands. */
-#define DAMPING REAL(0.8)
+/* Gauss-Legendre points and weights on [0, 1], and Gauss-Laguerre points x, exp(-x) and weights. */
+static const real_3 LEGENDRE_POINTS = {REAL(0.1127016653792583), REAL(0.5), REAL(0.8872983346207417)};
+static const real_3 LEGENDRE_WEIGHTS = {REAL(0.2777777777777778), REAL(0.4444444444444444), REAL(0.2777777777777778)};
+static const real_3 LAGUERRE_POINTS = {REAL(0.4157745567834791), REAL(2.294280360279042), REAL(6.2899450829374794)};
+static const real_3 LAGUERRE_SHARES = {REAL(0.6598290076917097), REAL(0.10083393126672065), REAL(0.0018548618076203868)};
+static const real_3 LAGUERRE_WEIGHTS = {REAL(0.711093009929173), REAL(0.27851773356924087), REAL(0.010389256501586137)};
 
-/* The largest number of steps in which a change of bank is flown. */
+/* The largest number of steps in which a change of a bank whose rate has a lag is flown. */
 #define STEPS 24
 
 /* These last for the change at the limit of the roll rate, and for so many time constants more. */
@@ -3590,11 +3597,6 @@ static inline real command_gain(real roll_time_s) {
     return min_real(max_real(roll_time_s / QUICKEST_S, REAL(1.0)), COMMAND_GAIN);
 }
 
-/* The largest change of bank that counts as infinitely small: its rate is not limited. */
-static inline real small_change_deg(RollValues roll) {
-    return min_real(SMALL_CHANGE_DEG, roll.rate_deg_s * roll.time_s / command_gain(roll.time_s));
-}
-
 /* By how much less is commanded for each degree per second of the bank rate, seconds.
  *
  * With the gain K the bank then obeys tau lag bank'' + (tau + this) bank' + K (bank - target) = 0, with the damping
@@ -3611,6 +3613,87 @@ static inline TurnOnset small_onset(RollValues roll) {
     const real first_s = (roll.time_s + rate_gain_s(roll)) / gain;
     return MAKE(TurnOnset){first_s, max_real(first_s * first_s - REAL(2.0) * roll.time_s * roll.lag_s / gain,
             REAL(0.0))};
+}
+
+/* `turn_delay` without a lag of the bank rate.
+ *
+ * Let m be the missing bank, p the limit of the roll rate, and g how far the bank limit lies beyond the target. The
+ * bank changes at the least of p, (m + g)/tau (the command is at the bank limit) and `command_gain` m/tau. As m
+ * shrinks these apply in that order. The time at which m is left follows from each in closed form. The times at
+ * which the parts of the change take effect, and the squares of these times, are summed over these three ranges by
+ * Gauss's rules.
+ */
+static inline TurnDelay first_order_delay(RollValues roll, real bank_deg, real target_deg, real limit_deg) {
+    const real tau = roll.time_s, p = roll.rate_deg_s, gain = command_gain(roll.time_s), m = real_fabs(target_deg -
+            bank_deg);
+    const real last_s = tau / gain, change = real_tan(target_deg * REAL(0.017453292519943295)) - real_tan(bank_deg *
+            REAL(0.017453292519943295));
+    const real g = max_real(limit_deg - (target_deg >= bank_deg ? target_deg : -target_deg), REAL(0.0));
+    /* The missing bank below which a demand is within the bank limit, and that at which the rate leaves its limit. */
+    const real unlimited = gain > REAL(1.0) ? g / (gain - REAL(1.0)) : REAL_INFINITY;
+    const bool is_instant = tau == REAL(0.0) && p == REAL_INFINITY;
+    if (is_instant || m == REAL(0.0) || m <= min_real(min_real(unlimited, p * last_s), SMALL_CHANGE_DEG)) {
+        return MAKE(TurnDelay){last_s * change, last_s * last_s * change};
+    }
+    const real slow = min_real(max_real(p * tau - g, p * last_s), m);
+    const real free = min_real(unlimited, slow);
+    const real backward = target_deg > bank_deg ? -REAL(1.0) : REAL(1.0);
+    real time_s = (m - slow) / p;
+    real whole = REAL(0.0), mean = REAL(0.0), square = REAL(0.0);
+    real tangent, share, at_s;
+    if (slow < m) {
+        const real each_x_1[3] = {LEGENDRE_POINTS.a0, LEGENDRE_POINTS.a1, LEGENDRE_POINTS.a2};
+        const real each_w_1[3] = {LEGENDRE_WEIGHTS.a0, LEGENDRE_WEIGHTS.a1, LEGENDRE_WEIGHTS.a2};
+        for (int i_1 = 0; i_1 < 3; i_1++) {
+            const real x = each_x_1[i_1];
+            const real w = each_w_1[i_1];
+            tangent = real_tan((target_deg + backward * (slow + x * (m - slow))) * REAL(0.017453292519943295));
+            share = w * (m - slow) * (REAL(1.0) + tangent * tangent);
+            at_s = (REAL(1.0) - x) * time_s;
+            whole = whole + share;
+            mean = mean + share * at_s;
+            square = square + share * at_s * at_s;
+        }
+    }
+    if (free < slow) {
+        /* In the square of a variable the logarithm is smooth where it begins. */
+        const real each_x_2[3] = {LEGENDRE_POINTS.a0, LEGENDRE_POINTS.a1, LEGENDRE_POINTS.a2};
+        const real each_w_2[3] = {LEGENDRE_WEIGHTS.a0, LEGENDRE_WEIGHTS.a1, LEGENDRE_WEIGHTS.a2};
+        for (int i_2 = 0; i_2 < 3; i_2++) {
+            const real x = each_x_2[i_2];
+            const real w = each_w_2[i_2];
+            const real left = free + x * x * (slow - free);
+            tangent = real_tan((target_deg + backward * left) * REAL(0.017453292519943295));
+            at_s = time_s + tau * real_log((slow + g) / (left + g));
+            share = REAL(2.0) * x * w * (slow - free) * (REAL(1.0) + tangent * tangent);
+            whole = whole + share;
+            mean = mean + share * at_s;
+            square = square + share * at_s * at_s;
+        }
+    }
+    if (free > REAL(0.0)) {
+        time_s += tau * real_log((slow + g) / (free + g));
+        const real each_x_3[3] = {LAGUERRE_POINTS.a0, LAGUERRE_POINTS.a1, LAGUERRE_POINTS.a2};
+        const real each_kept_3[3] = {LAGUERRE_SHARES.a0, LAGUERRE_SHARES.a1, LAGUERRE_SHARES.a2};
+        const real each_w_3[3] = {LAGUERRE_WEIGHTS.a0, LAGUERRE_WEIGHTS.a1, LAGUERRE_WEIGHTS.a2};
+        for (int i_3 = 0; i_3 < 3; i_3++) {
+            const real x = each_x_3[i_3];
+            const real kept = each_kept_3[i_3];
+            const real w = each_w_3[i_3];
+            tangent = real_tan((target_deg + backward * free * kept) * REAL(0.017453292519943295));
+            at_s = time_s + x * last_s;
+            share = w * free * (REAL(1.0) + tangent * tangent);
+            whole = whole + share;
+            mean = mean + share * at_s;
+            square = square + share * at_s * at_s;
+        }
+    }
+    return MAKE(TurnDelay){change * mean / whole, REAL(0.5) * change * square / whole};
+}
+
+/* The largest change of bank that counts as infinitely small: its rate is not limited. */
+static inline real small_change_deg(RollValues roll) {
+    return min_real(SMALL_CHANGE_DEG, roll.rate_deg_s * roll.time_s / command_gain(roll.time_s));
 }
 
 /* `value`, limited to the range from -`limit` to `limit`. */
@@ -3646,35 +3729,33 @@ static inline TurnDelay linear_delay(RollValues roll, real beyond_deg, real rate
     return MAKE(TurnDelay){missing_s, b * missing_s + a * beyond_deg};
 }
 
-/* How a change of bank under `demand_deg` delays a turn.
- *
- * The turn rate is proportional to tan(bank). The change is flown in steps until it is small; the rest is linear.
- */
-static inline TurnDelay turn_delay(RollValues roll, Bank now, real target_deg, real limit_deg) {
+/* `turn_delay` of a bank whose rate has a lag: flown in steps until the change is small; the rest is linear. */
+static inline TurnDelay lagging_delay(RollValues roll, Bank now, real target_deg, real limit_deg) {
     const real gain = command_gain(roll.time_s), braking_s = rate_gain_s(roll), tangent = real_tan(target_deg *
             REAL(0.017453292519943295));
     real missing_s = REAL(0.0), moment_s2 = REAL(0.0), time_s = REAL(0.0);
     bool is_limited = true;
     integer left = STEPS;
     const real small_deg = small_change_deg(roll);
+    now = MAKE(Bank){now.bank_deg, clip(now.rate_deg_s, roll.rate_deg_s)};
     const real dt = (real_fabs(target_deg - now.bank_deg) / roll.rate_deg_s + SETTLING * (roll.time_s + braking_s))
             / (real)STEPS;
-    while (dt > REAL(0.0) && left > 0) {
-        /* The demand at half time. */
-        const real there_deg = now.bank_deg + REAL(0.5) * dt * now.rate_deg_s;
-        const real change_deg = gain * (target_deg - there_deg) - braking_s * now.rate_deg_s;
-        is_limited = real_fabs(there_deg + change_deg) > limit_deg;
+    while (left > 0) {
+        real change_deg = gain * (target_deg - now.bank_deg) - braking_s * now.rate_deg_s;
+        is_limited = real_fabs(now.bank_deg + change_deg) > limit_deg;
         if (!is_limited && real_fabs(target_deg - now.bank_deg) + roll.lag_s * real_fabs(now.rate_deg_s) <
                 small_deg) {
             break;
         }
-        const Bank after = roll_after(roll, now, clip(there_deg + change_deg, limit_deg), dt);
+        const Bank half = roll_after(roll, now, clip(now.bank_deg + change_deg, limit_deg), REAL(0.5) * dt);
+        /* The demand at half time counts for the whole step. */
+        change_deg = gain * (target_deg - half.bank_deg) - braking_s * half.rate_deg_s;
+        const Bank after = roll_after(roll, now, clip(half.bank_deg + change_deg, limit_deg), dt);
         const real part_s = dt * (tangent - real_tan(REAL(0.5) * (now.bank_deg + after.bank_deg) *
                 REAL(0.017453292519943295)));
         missing_s = missing_s + part_s;
         moment_s2 = moment_s2 + part_s * (time_s + REAL(0.5) * dt);
-        const real rate_deg_s = roll.lag_s > REAL(0.0) ? after.rate_deg_s : (after.bank_deg - now.bank_deg) / dt;
-        now = MAKE(Bank){after.bank_deg, rate_deg_s};
+        now = after;
         time_s = time_s + dt;
         left = left - 1;
     }
@@ -3684,16 +3765,22 @@ static inline TurnDelay turn_delay(RollValues roll, Bank now, real target_deg, r
     return MAKE(TurnDelay){missing_s, moment_s2 + slope * (time_s * rest.missing_s + rest.moment_s2)};
 }
 
+/* How a change of bank under `demand_deg` delays a turn. The turn rate is proportional to tan(bank). */
+static inline TurnDelay turn_delay(RollValues roll, Bank now, real target_deg, real limit_deg) {
+    if (roll.lag_s == REAL(0.0)) {
+        return first_order_delay(roll, now.bank_deg, target_deg, limit_deg);
+    }
+    return lagging_delay(roll, now, target_deg, limit_deg);
+}
+
 /* When a change of bank from rest, under `demand_deg`, changes the turn rate. */
 static inline TurnOnset turn_onset(RollValues roll, real bank_deg, real target_deg, real limit_deg) {
-    const real change_deg = target_deg - bank_deg;
-    const bool is_limited = real_fabs(bank_deg + command_gain(roll.time_s) * change_deg) > limit_deg;
-    if (change_deg == REAL(0.0) || (real_fabs(change_deg) <= small_change_deg(roll) && !is_limited)) {
+    const real change = real_tan(target_deg * REAL(0.017453292519943295)) - real_tan(bank_deg *
+            REAL(0.017453292519943295));
+    if (change == REAL(0.0)) {
         return small_onset(roll);
     }
     const TurnDelay delay = turn_delay(roll, MAKE(Bank){bank_deg, REAL(0.0)}, target_deg, limit_deg);
-    const real change = real_tan(target_deg * REAL(0.017453292519943295)) - real_tan(bank_deg *
-            REAL(0.017453292519943295));
     const real lead_s = delay.missing_s / change;
     return MAKE(TurnOnset){lead_s, max_real(REAL(2.0) * delay.moment_s2 / change - lead_s * lead_s, REAL(0.0))};
 }

@@ -6,7 +6,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 251dc02c22de7602c13ab2226f4a491fcb4b7416496bcad7d5774a558468c767
+ * SHA-256 of the source: 4aeed205f5ae55a913b6287dc616c8b0217ec1a3d3899bd4a50c6a7b8cb0ba44
  */
 #ifndef LOITER_ONBOARD_H
 #define LOITER_ONBOARD_H

@@ -99,8 +99,17 @@ def test_a_bank_whose_rate_lags_delays_a_turn(roll, begin):
         part = (tan(radians(target)) - tan(radians(bank))) * step
         missing, moment, bank = missing + part, moment + part * i * step, bank + rate * step
     delay = turn_delay(roll, begin, target, LIMIT_DEG)
-    assert delay.missing_s == pytest.approx(missing, abs=0.04)
-    assert delay.moment_s2 == pytest.approx(moment, abs=0.08)
+    assert delay.missing_s == pytest.approx(missing, abs=0.01)
+    assert delay.moment_s2 == pytest.approx(moment, abs=0.02)
+
+
+@pytest.mark.parametrize(("begin", "target"), [(-35.0, 15.0), (0.0, 35.0), (20.0, 0.0)])
+def test_a_short_lag_of_the_rate_delays_a_turn_like_none(begin, target):
+    none, short = (
+        turn_delay(RollValues(0.5, 60.0, lag_s), Bank(begin, 0.0), target, LIMIT_DEG) for lag_s in (0.0, 1e-4)
+    )
+    assert short.missing_s == pytest.approx(none.missing_s, abs=0.01)
+    assert short.moment_s2 == pytest.approx(none.moment_s2, abs=0.01)
 
 
 def turn_rate(bank, airspeed):

@@ -29,6 +29,12 @@ RATES, RATE_RATIO, DECLARED_RATE = 6, 1.45, 3
 # Each is of first order and, with these multiples of its time constant and of that as the lag of its rate, of second
 # order: as quick to 63 %, with an overshoot of 13 %.
 ORDERS, SECOND_TIME, SECOND_LAG = 2, 0.71, 0.58
+
+# A roll of first order is declared: the others have this share of the probability of the same roll of first order.
+SECOND_SHARE = 0.5
+
+# A shorter lag of the bank rate, seconds, counts as none.
+NEGLIGIBLE_LAG_S = 0.01
 KINDS = TIMES * ORDERS
 MODELS = KINDS * RATES
 
@@ -398,6 +404,8 @@ def update_weights(weights: Weights, settings: RollSettings, models: Models, mea
     lag_s, second = 0.0, 0.0
     for i in range(KINDS):
         kind, time_log = settings.kinds[i], declared_log(settings.time, i // ORDERS) - log_total
+        if kind.lag_s > 0.0:
+            time_log += log(SECOND_SHARE)
         for j in range(RATES):
             limit_deg, model_log = settings.limits_deg[j], time_log + declared_log(settings.rate, j)
             now, pairs, total = models.models[i * RATES + j].earliest, weights.logs[0], 0.0
@@ -419,7 +427,9 @@ def update_weights(weights: Weights, settings: RollSettings, models: Models, mea
     # A roll of first order is declared.
     share = measured_share(settings.time, time) / time.total
     time_s = exp(estimate_of(settings.time, time)) * (1.0 + share * second * (SECOND_TIME - 1.0))
-    roll = RollValues(time_s, exp(cautious_estimate(settings.rate, rate)), share * lag_s)
+    lag_s *= share
+    lag_s = lag_s if lag_s > NEGLIGIBLE_LAG_S else 0.0
+    roll = RollValues(time_s, exp(cautious_estimate(settings.rate, rate)), lag_s)
     delay_s = max(estimate_of(settings.delay, Sums(time.total, index, index_square)), 0.0)
     mean = errors / (MODELS * DELAYS)
     return weights._replace(

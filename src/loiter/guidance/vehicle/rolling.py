@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import exp, inf, radians, sqrt, tan
+from math import exp, inf, log, radians, sqrt, tan
 from typing import NamedTuple
 
 from loiter.errors import InvalidArgument, as_float, not_negative
@@ -16,11 +16,18 @@ COMMAND_GAIN, QUICKEST_S = 2.5, 0.15
 # The damping of a bank whose rate has a lag, under these commands.
 DAMPING = 0.8
 
-# The largest number of steps in which a change of bank is flown.
+# The largest number of steps in which a change of a bank whose rate has a lag is flown.
 STEPS = 24
 
 # These last for the change at the limit of the roll rate, and for so many time constants more.
 SETTLING = 1.5
+
+# Gauss-Legendre points and weights on [0, 1], and Gauss-Laguerre points x, exp(-x) and weights.
+LEGENDRE_POINTS = (0.5 - 0.5 * sqrt(0.6), 0.5, 0.5 + 0.5 * sqrt(0.6))
+LEGENDRE_WEIGHTS = (5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0)
+LAGUERRE_POINTS = (0.41577455678347908, 2.2942803602790418, 6.2899450829374794)
+LAGUERRE_SHARES = (exp(-LAGUERRE_POINTS[0]), exp(-LAGUERRE_POINTS[1]), exp(-LAGUERRE_POINTS[2]))
+LAGUERRE_WEIGHTS = (0.71109300992917301, 0.27851773356924085, 0.010389256501586136)
 
 # A smaller change of bank, degrees, takes effect like an infinitely small one where neither it nor its rate is limited.
 SMALL_CHANGE_DEG = 5.0
@@ -151,30 +158,76 @@ def roll_after(roll: RollValues, now: Bank, command_deg: float, time_s: float) -
 
 
 def turn_delay(roll: RollValues, now: Bank, target_deg: float, limit_deg: float) -> TurnDelay:
-    """How a change of bank under `demand_deg` delays a turn.
+    """How a change of bank under `demand_deg` delays a turn. The turn rate is proportional to tan(bank)."""
+    if roll.lag_s == 0.0:
+        return first_order_delay(roll, now.bank_deg, target_deg, limit_deg)
+    return lagging_delay(roll, now, target_deg, limit_deg)
 
-    The turn rate is proportional to tan(bank). The change is flown in steps until it is small; the rest is linear.
-    """
+
+def lagging_delay(roll: RollValues, now: Bank, target_deg: float, limit_deg: float) -> TurnDelay:
+    """`turn_delay` of a bank whose rate has a lag: flown in steps until the change is small; the rest is linear."""
     gain, braking_s, tangent = command_gain(roll.time_s), rate_gain_s(roll), tan(radians(target_deg))
     missing_s, moment_s2, time_s, is_limited, left = 0.0, 0.0, 0.0, True, STEPS
-    small_deg = small_change_deg(roll)
+    small_deg, now = small_change_deg(roll), Bank(now.bank_deg, clip(now.rate_deg_s, roll.rate_deg_s))
     dt = (abs(target_deg - now.bank_deg) / roll.rate_deg_s + SETTLING * (roll.time_s + braking_s)) / STEPS
-    while dt > 0.0 and left > 0:
-        # The demand at half time.
-        there_deg = now.bank_deg + 0.5 * dt * now.rate_deg_s
-        change_deg = gain * (target_deg - there_deg) - braking_s * now.rate_deg_s
-        is_limited = abs(there_deg + change_deg) > limit_deg
+    while left > 0:
+        change_deg = gain * (target_deg - now.bank_deg) - braking_s * now.rate_deg_s
+        is_limited = abs(now.bank_deg + change_deg) > limit_deg
         if not is_limited and abs(target_deg - now.bank_deg) + roll.lag_s * abs(now.rate_deg_s) < small_deg:
             break
-        after = roll_after(roll, now, clip(there_deg + change_deg, limit_deg), dt)
+        half = roll_after(roll, now, clip(now.bank_deg + change_deg, limit_deg), 0.5 * dt)
+        # The demand at half time counts for the whole step.
+        change_deg = gain * (target_deg - half.bank_deg) - braking_s * half.rate_deg_s
+        after = roll_after(roll, now, clip(half.bank_deg + change_deg, limit_deg), dt)
         part_s = dt * (tangent - tan(radians(0.5 * (now.bank_deg + after.bank_deg))))
         missing_s, moment_s2 = missing_s + part_s, moment_s2 + part_s * (time_s + 0.5 * dt)
-        rate_deg_s = after.rate_deg_s if roll.lag_s > 0.0 else (after.bank_deg - now.bank_deg) / dt
-        now, time_s, left = Bank(after.bank_deg, rate_deg_s), time_s + dt, left - 1
+        now, time_s, left = after, time_s + dt, left - 1
     slope = radians(1.0 + tangent * tangent)
     rest = linear_delay(roll, now.bank_deg - target_deg, now.rate_deg_s, is_limited)
     missing_s += slope * rest.missing_s
     return TurnDelay(missing_s, moment_s2 + slope * (time_s * rest.missing_s + rest.moment_s2))
+
+
+def first_order_delay(roll: RollValues, bank_deg: float, target_deg: float, limit_deg: float) -> TurnDelay:
+    """`turn_delay` without a lag of the bank rate.
+
+    Let m be the missing bank, p the limit of the roll rate, and g how far the bank limit lies beyond the target. The
+    bank changes at the least of p, (m + g)/tau (the command is at the bank limit) and `command_gain` m/tau. As m
+    shrinks these apply in that order. The time at which m is left follows from each in closed form. The times at which
+    the parts of the change take effect, and the squares of these times, are summed over these three ranges by Gauss's
+    rules.
+    """
+    tau, p, gain, m = roll.time_s, roll.rate_deg_s, command_gain(roll.time_s), abs(target_deg - bank_deg)
+    last_s, change = tau / gain, tan(radians(target_deg)) - tan(radians(bank_deg))
+    g = max(limit_deg - (target_deg if target_deg >= bank_deg else -target_deg), 0.0)
+    # The missing bank below which a demand is within the bank limit, and that at which the rate leaves its limit.
+    unlimited = g / (gain - 1.0) if gain > 1.0 else inf
+    is_instant = tau == 0.0 and p == inf
+    if is_instant or m == 0.0 or m <= min(unlimited, p * last_s, SMALL_CHANGE_DEG):
+        return TurnDelay(last_s * change, last_s * last_s * change)
+    slow = min(max(p * tau - g, p * last_s), m)
+    free = min(unlimited, slow)
+    backward, time_s = -1.0 if target_deg > bank_deg else 1.0, (m - slow) / p
+    whole, mean, square = 0.0, 0.0, 0.0
+    if slow < m:
+        for x, w in zip(LEGENDRE_POINTS, LEGENDRE_WEIGHTS, strict=True):
+            tangent = tan(radians(target_deg + backward * (slow + x * (m - slow))))
+            share, at_s = w * (m - slow) * (1.0 + tangent * tangent), (1.0 - x) * time_s
+            whole, mean, square = whole + share, mean + share * at_s, square + share * at_s * at_s
+    if free < slow:
+        # In the square of a variable the logarithm is smooth where it begins.
+        for x, w in zip(LEGENDRE_POINTS, LEGENDRE_WEIGHTS, strict=True):
+            left = free + x * x * (slow - free)
+            tangent, at_s = tan(radians(target_deg + backward * left)), time_s + tau * log((slow + g) / (left + g))
+            share = 2.0 * x * w * (slow - free) * (1.0 + tangent * tangent)
+            whole, mean, square = whole + share, mean + share * at_s, square + share * at_s * at_s
+    if free > 0.0:
+        time_s += tau * log((slow + g) / (free + g))
+        for x, kept, w in zip(LAGUERRE_POINTS, LAGUERRE_SHARES, LAGUERRE_WEIGHTS, strict=True):
+            tangent, at_s = tan(radians(target_deg + backward * free * kept)), time_s + x * last_s
+            share = w * free * (1.0 + tangent * tangent)
+            whole, mean, square = whole + share, mean + share * at_s, square + share * at_s * at_s
+    return TurnDelay(change * mean / whole, 0.5 * change * square / whole)
 
 
 def small_change_deg(roll: RollValues) -> float:
@@ -201,12 +254,10 @@ def coasting_s(roll: RollValues) -> float:
 
 def turn_onset(roll: RollValues, bank_deg: float, target_deg: float, limit_deg: float) -> TurnOnset:
     """When a change of bank from rest, under `demand_deg`, changes the turn rate."""
-    change_deg = target_deg - bank_deg
-    is_limited = abs(bank_deg + command_gain(roll.time_s) * change_deg) > limit_deg
-    if change_deg == 0.0 or (abs(change_deg) <= small_change_deg(roll) and not is_limited):
+    change = tan(radians(target_deg)) - tan(radians(bank_deg))
+    if change == 0.0:
         return small_onset(roll)
     delay = turn_delay(roll, Bank(bank_deg, 0.0), target_deg, limit_deg)
-    change = tan(radians(target_deg)) - tan(radians(bank_deg))
     lead_s = delay.missing_s / change
     return TurnOnset(lead_s, max(2.0 * delay.moment_s2 / change - lead_s * lead_s, 0.0))
 
