@@ -50,6 +50,7 @@ int loiter_law_step_identified(loiter_law *law, loiter_identification *identific
     advance_identification(memory, &identification->settings, &state, law->memory.command.bank_deg, law->memory.step_s);
     law->vehicle.revision = memory->revision;
     law->vehicle.bank_deg = memory->roll.bank_deg;
+    law->vehicle.bank_rate_deg_s = memory->roll.bank_rate_deg_s;
     law->vehicle.estimates = memory->estimates;
     return loiter_law_step_known(law, m, dt_s, command);
 }

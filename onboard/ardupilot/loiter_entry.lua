@@ -3240,7 +3240,7 @@ end
 local function estimates_of(now, airspeeds)
     local rate_deg_s = param:get("RLL2SRV_RMAX") or 0.0
     return {
-        roll = {time_s = ROLL_TIME_S, rate_deg_s = rate_deg_s > 0.0 and rate_deg_s or ROLL_RATE_DEG_S},
+        roll = {time_s = ROLL_TIME_S, rate_deg_s = rate_deg_s > 0.0 and rate_deg_s or ROLL_RATE_DEG_S, lag_s = 0.0},
         delay_s = delay_s, turn_ratio = turns.slow.ratio, quick_turn_ratio = turns.quick.ratio,
         course_lead_s = turns.lead.lead_s, wind_east_m_s = now.wind_east_m_s, wind_north_m_s = now.wind_north_m_s,
         airspeed_m_s = airspeeds.always.value, turn_airspeed_m_s = airspeeds.in_turns.value, overshoot_deg = 0.0,
@@ -3257,7 +3257,7 @@ local function learn(now)
         return
     end
     flight.model = {
-        revision = flight.model.revision + 1, bank_deg = flight.model.bank_deg,
+        revision = flight.model.revision + 1, bank_deg = flight.model.bank_deg, bank_rate_deg_s = 0.0,
         estimates = estimates_of(now, flight.airspeeds),
     }
     local east, north = now.wind_east_m_s - flight.wind_east_m_s, now.wind_north_m_s - flight.wind_north_m_s
@@ -3325,7 +3325,7 @@ local function prepare(now)
     }
     local estimates = estimates_of(now, airspeeds)
     last_problem, searches = nil, 0
-    local model = {revision = 0, bank_deg = now.bank_deg, estimates = estimates}
+    local model = {revision = 0, bank_deg = now.bank_deg, bank_rate_deg_s = 0.0, estimates = estimates}
     return {
         centre = target, settings = settings, model = model, memory = law.first_memory(settings, model),
         since_ms = now.now_ms, airspeeds = airspeeds, radius_m = radius_m, wind_east_m_s = now.wind_east_m_s,

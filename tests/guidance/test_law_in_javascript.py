@@ -18,7 +18,7 @@ import { first_identification, first_memory, fly_as_declared, identify, settings
 import { settings, declared, identifies, states, dt } from "./flight.mjs";
 const known = settings_of(declared.declared, declared.limit_deg, declared.wind_known_s);
 let identification = first_identification(known);
-let model = { revision: 0, bank_deg: 0, estimates: declared.declared };
+let model = { revision: 0, bank_deg: 0, bank_rate_deg_s: 0, estimates: declared.declared };
 let memory = first_memory(settings, model), command;
 const said = states.map((state) => {
   const { command: { bank_deg: command_deg }, step_s } = memory;
