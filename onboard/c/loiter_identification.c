@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 6d4c29af4c06f888e9ebcc6ea70ce367045361c8d0399bb87e47e56b62ec9982
+ * SHA-256 of the source: e52f0e0bc959637f227294f69425cfb907cda90027052b043de142e135fc00bb
  */
 #include "loiter_identification.h"
 
@@ -137,6 +137,36 @@ static inline void ModelStep_ring_10_append(ModelStep_ring_10 *ring, ModelStep l
     ring->at[9] = last;
 }
 
+typedef loiter_real_ring_10 real_ring_10;
+
+static inline real_ring_10 real_ring_10_filled(real one) {
+    real_ring_10 ring;
+    for (int i = 0; i < 10; i++) {
+        ring.at[i] = one;
+    }
+    return ring;
+}
+
+static inline real_ring_10 real_ring_10_with_last(real_ring_10 ring, real last) {
+    ring.at[9] = last;
+    return ring;
+}
+
+static inline real_ring_10 real_ring_10_appended(real_ring_10 ring, real last) {
+    for (int i = 0; i < 9; i++) {
+        ring.at[i] = ring.at[i + 1];
+    }
+    ring.at[9] = last;
+    return ring;
+}
+
+static inline void real_ring_10_append(real_ring_10 *ring, real last) {
+    for (int i = 0; i < 9; i++) {
+        ring->at[i] = ring->at[i + 1];
+    }
+    ring->at[9] = last;
+}
+
 typedef loiter_real_ring_6 real_ring_6;
 
 static inline real_ring_6 real_ring_6_filled(real one) {
@@ -201,8 +231,7 @@ typedef loiter_RollSettings RollSettings;
 
 typedef loiter_IdentificationSettings IdentificationSettings;
 
-/* The sums of the weights of indices, of the weighted indices, and of their weighted squares. */
-typedef struct { real total, weighted, squared; } Sums;
+typedef loiter_Sums Sums;
 
 typedef loiter_Bank Bank;
 
@@ -212,98 +241,132 @@ typedef loiter_Stamps Stamps;
 
 typedef loiter_MeasuredBank MeasuredBank;
 
+typedef loiter_Comparison Comparison;
+
 typedef loiter_RollModel RollModel;
 
-typedef loiter_RollModel_ring_60 RollModel_ring_60;
+typedef loiter_RollModel_ring_6 RollModel_ring_6;
 
-static inline RollModel_ring_60 RollModel_ring_60_filled(RollModel one) {
-    RollModel_ring_60 ring;
-    for (int i = 0; i < 60; i++) {
+static inline RollModel_ring_6 RollModel_ring_6_filled(RollModel one) {
+    RollModel_ring_6 ring;
+    for (int i = 0; i < 6; i++) {
         ring.at[i] = one;
     }
     return ring;
 }
 
-static inline RollModel_ring_60 RollModel_ring_60_with_last(RollModel_ring_60 ring, RollModel last) {
-    ring.at[59] = last;
+static inline RollModel_ring_6 RollModel_ring_6_with_last(RollModel_ring_6 ring, RollModel last) {
+    ring.at[5] = last;
     return ring;
 }
 
-static inline RollModel_ring_60 RollModel_ring_60_appended(RollModel_ring_60 ring, RollModel last) {
-    for (int i = 0; i < 59; i++) {
+static inline RollModel_ring_6 RollModel_ring_6_appended(RollModel_ring_6 ring, RollModel last) {
+    for (int i = 0; i < 5; i++) {
         ring.at[i] = ring.at[i + 1];
     }
-    ring.at[59] = last;
+    ring.at[5] = last;
     return ring;
 }
 
-static inline void RollModel_ring_60_append(RollModel_ring_60 *ring, RollModel last) {
-    for (int i = 0; i < 59; i++) {
+static inline void RollModel_ring_6_append(RollModel_ring_6 *ring, RollModel last) {
+    for (int i = 0; i < 5; i++) {
         ring->at[i] = ring->at[i + 1];
     }
-    ring->at[59] = last;
+    ring->at[5] = last;
+}
+
+typedef loiter_RollModel_ring_6_ring_10 RollModel_ring_6_ring_10;
+
+static inline RollModel_ring_6_ring_10 RollModel_ring_6_ring_10_filled(RollModel_ring_6 one) {
+    RollModel_ring_6_ring_10 ring;
+    for (int i = 0; i < 10; i++) {
+        ring.at[i] = one;
+    }
+    return ring;
+}
+
+static inline RollModel_ring_6_ring_10 RollModel_ring_6_ring_10_with_last(RollModel_ring_6_ring_10 ring, RollModel_ring_6 last) {
+    ring.at[9] = last;
+    return ring;
+}
+
+static inline RollModel_ring_6_ring_10 RollModel_ring_6_ring_10_appended(RollModel_ring_6_ring_10 ring, RollModel_ring_6 last) {
+    for (int i = 0; i < 9; i++) {
+        ring.at[i] = ring.at[i + 1];
+    }
+    ring.at[9] = last;
+    return ring;
+}
+
+static inline void RollModel_ring_6_ring_10_append(RollModel_ring_6_ring_10 *ring, RollModel_ring_6 last) {
+    for (int i = 0; i < 9; i++) {
+        ring->at[i] = ring->at[i + 1];
+    }
+    ring->at[9] = last;
 }
 
 typedef loiter_Models Models;
 
-typedef loiter_real_ring_14_ring_60 real_ring_14_ring_60;
+typedef loiter_real_ring_14_ring_6 real_ring_14_ring_6;
 
-static inline real_ring_14_ring_60 real_ring_14_ring_60_filled(real_ring_14 one) {
-    real_ring_14_ring_60 ring;
-    for (int i = 0; i < 60; i++) {
+static inline real_ring_14_ring_6 real_ring_14_ring_6_filled(real_ring_14 one) {
+    real_ring_14_ring_6 ring;
+    for (int i = 0; i < 6; i++) {
         ring.at[i] = one;
     }
     return ring;
 }
 
-static inline real_ring_14_ring_60 real_ring_14_ring_60_with_last(real_ring_14_ring_60 ring, real_ring_14 last) {
-    ring.at[59] = last;
+static inline real_ring_14_ring_6 real_ring_14_ring_6_with_last(real_ring_14_ring_6 ring, real_ring_14 last) {
+    ring.at[5] = last;
     return ring;
 }
 
-static inline real_ring_14_ring_60 real_ring_14_ring_60_appended(real_ring_14_ring_60 ring, real_ring_14 last) {
-    for (int i = 0; i < 59; i++) {
+static inline real_ring_14_ring_6 real_ring_14_ring_6_appended(real_ring_14_ring_6 ring, real_ring_14 last) {
+    for (int i = 0; i < 5; i++) {
         ring.at[i] = ring.at[i + 1];
     }
-    ring.at[59] = last;
+    ring.at[5] = last;
     return ring;
 }
 
-static inline void real_ring_14_ring_60_append(real_ring_14_ring_60 *ring, real_ring_14 last) {
-    for (int i = 0; i < 59; i++) {
+static inline void real_ring_14_ring_6_append(real_ring_14_ring_6 *ring, real_ring_14 last) {
+    for (int i = 0; i < 5; i++) {
         ring->at[i] = ring->at[i + 1];
     }
-    ring->at[59] = last;
+    ring->at[5] = last;
 }
 
-typedef loiter_real_ring_60 real_ring_60;
+typedef loiter_KindWeights KindWeights;
 
-static inline real_ring_60 real_ring_60_filled(real one) {
-    real_ring_60 ring;
-    for (int i = 0; i < 60; i++) {
+typedef loiter_KindWeights_ring_10 KindWeights_ring_10;
+
+static inline KindWeights_ring_10 KindWeights_ring_10_filled(KindWeights one) {
+    KindWeights_ring_10 ring;
+    for (int i = 0; i < 10; i++) {
         ring.at[i] = one;
     }
     return ring;
 }
 
-static inline real_ring_60 real_ring_60_with_last(real_ring_60 ring, real last) {
-    ring.at[59] = last;
+static inline KindWeights_ring_10 KindWeights_ring_10_with_last(KindWeights_ring_10 ring, KindWeights last) {
+    ring.at[9] = last;
     return ring;
 }
 
-static inline real_ring_60 real_ring_60_appended(real_ring_60 ring, real last) {
-    for (int i = 0; i < 59; i++) {
+static inline KindWeights_ring_10 KindWeights_ring_10_appended(KindWeights_ring_10 ring, KindWeights last) {
+    for (int i = 0; i < 9; i++) {
         ring.at[i] = ring.at[i + 1];
     }
-    ring.at[59] = last;
+    ring.at[9] = last;
     return ring;
 }
 
-static inline void real_ring_60_append(real_ring_60 *ring, real last) {
-    for (int i = 0; i < 59; i++) {
+static inline void KindWeights_ring_10_append(KindWeights_ring_10 *ring, KindWeights last) {
+    for (int i = 0; i < 9; i++) {
         ring->at[i] = ring->at[i + 1];
     }
-    ring->at[59] = last;
+    ring->at[9] = last;
 }
 
 typedef loiter_RollEstimate RollEstimate;
@@ -382,13 +445,18 @@ static const Sums NO_SUMS = {REAL(0.0), REAL(0.0), REAL(0.0)};
 #define DELAYS 14
 #define DELAY_SPREAD_S REAL(0.2)
 static const ModelStep NO_MODEL_STEP = {REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)};
+#define KINDS 10 /* TIMES + SECOND_TIMES */
+
+/* Each is of first order and, the slowest ones, of second order too, with these multiples of its time constant as
+ * the time constant and the lag of its rate: as quick to 63 %, with an overshoot of 13 %.
+ */
+#define SECOND_TIMES 5
+
+/* A roll of first order is declared: the others have this share of the probability of the same roll of first order. */
+#define SECOND_SHARE REAL(0.5)
 
 /* A step of a model of second order is computed in so many. */
 #define SUBSTEPS 32
-
-/* Each is of first order and, with these multiples of its time constant and of that as the lag of its rate, of
- * second order: as quick to 63 %, with an overshoot of 13 %.
- */
 #define SECOND_TIME REAL(0.71)
 #define SECOND_LAG REAL(0.58)
 
@@ -402,18 +470,13 @@ static const ModelStep NO_MODEL_STEP = {REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.
  * than `LARGEST_ERROR_DEG` count as that.
  */
 #define CORRELATION_S REAL(0.2)
+static const MeasuredBank NOTHING_MEASURED = {REAL(0.0), REAL(0.0), REAL(0.0)};
 
 /* Errors are forgotten over this time, seconds, while the predictions differ by more than `EXCITED_DEG`. */
 #define EXCITED_DEG REAL(3.0)
 #define MEMORY_S REAL(10.0)
 #define ERROR_DEG REAL(1.4)
 #define LARGEST_ERROR_DEG REAL(10.0)
-#define KINDS 10 /* TIMES * ORDERS */
-#define ORDERS 2
-
-/* A roll of first order is declared: the others have this share of the probability of the same roll of first order. */
-#define SECOND_SHARE REAL(0.5)
-#define MODELS 60 /* KINDS * RATES */
 
 /* A shorter lag of the bank rate, seconds, counts as none. */
 #define NEGLIGIBLE_LAG_S REAL(0.01)
@@ -422,7 +485,7 @@ static const ModelStep NO_MODEL_STEP = {REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.
  * the extent that measurements count: a reversal that begins too late costs more than one that begins too early.
  */
 #define RATE_CAUTION REAL(0.8)
-static const MeasuredBank NOTHING_MEASURED = {REAL(0.0), REAL(0.0), REAL(0.0)};
+#define MODELS 60 /* KINDS * RATES */
 static const Clock FIRST_CLOCK = {-REAL_INFINITY, REAL(0.0), REAL_INFINITY, REAL(0.0), REAL_NAN, REAL_NAN};
 static const TurnSums NO_TURNS = {REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)};
 static const RatioFit NO_PAIRS = {REAL(0.0), REAL(0.0)};
@@ -565,6 +628,11 @@ static inline Unknown unknown_of(real declared, real index, real step, real spre
     return MAKE(Unknown){declared, index, step, spread, mean_of(sums) - index, variance_of(sums)};
 }
 
+/* The index of the time constant of a kind: those of first order come first, then the slowest of second order. */
+static inline integer time_index(integer kind) {
+    return kind < TIMES ? kind : kind - SECOND_TIMES;
+}
+
 /* The value of an unknown at an index. */
 static inline real value_at(const Unknown *unknown, real index) {
     return unknown->declared + unknown->step * (index - unknown->at_index);
@@ -602,20 +670,29 @@ static inline RollSettings roll_settings(RollValues declared, real delay_s) {
     const Unknown delay = unknown_of(delay_s, (real)(DELAYS - 1) - delay_s / STEP_S, -STEP_S, DELAY_SPREAD_S,
             DELAYS);
     ModelStep_ring_10 kinds = ModelStep_ring_10_filled(NO_MODEL_STEP);
-    real_ring_6 limits_deg = real_ring_6_filled(REAL(0.0));
+    real_ring_10 kind_logs = real_ring_10_filled(REAL(0.0));
     real_ring_14 delay_logs = real_ring_14_filled(REAL(0.0));
-    for (integer i = 0; i < TIMES; i++) {
-        const real one_s = real_exp(value_at(&time, (real)i));
-        ModelStep_ring_10_append(&kinds, step_of(one_s, REAL(0.0)));
-        ModelStep_ring_10_append(&kinds, step_of(SECOND_TIME * one_s, SECOND_LAG * one_s));
+    real_ring_6 limits_deg = real_ring_6_filled(REAL(0.0)), rate_logs = real_ring_6_filled(REAL(0.0));
+    for (integer i = 0; i < KINDS; i++) {
+        const integer at = time_index(i);
+        const real one_s = real_exp(value_at(&time, (real)at));
+        real share = SECOND_SHARE;
+        if (i < TIMES) {
+            share = i >= TIMES - SECOND_TIMES ? REAL(1.0) : REAL(1.0) + SECOND_SHARE;
+            ModelStep_ring_10_append(&kinds, step_of(one_s, REAL(0.0)));
+        } else {
+            ModelStep_ring_10_append(&kinds, step_of(SECOND_TIME * one_s, SECOND_LAG * one_s));
+        }
+        real_ring_10_append(&kind_logs, declared_log(&time, (real)at) + real_log(share));
     }
     for (integer i = 0; i < RATES; i++) {
         real_ring_6_append(&limits_deg, STEP_S * real_exp(value_at(&rate, (real)i)));
+        real_ring_6_append(&rate_logs, declared_log(&rate, (real)i));
     }
     for (integer i = 0; i < DELAYS; i++) {
         real_ring_14_append(&delay_logs, declared_log(&delay, (real)i));
     }
-    return MAKE(RollSettings){time, rate, delay, kinds, limits_deg, delay_logs};
+    return MAKE(RollSettings){time, rate, delay, kinds, kind_logs, limits_deg, rate_logs, delay_logs};
 }
 
 /* The settings for what is declared. */
@@ -623,6 +700,11 @@ static inline IdentificationSettings settings_of(const VehicleEstimates *declare
         wind_known_s) {
     return MAKE(IdentificationSettings){(*declared), wind_known_s, limit_deg, roll_settings(declared->roll,
             declared->delay_s)};
+}
+
+/* A comparison with a measured bank of which so many kinds count as done. */
+static inline Comparison comparison_with(MeasuredBank measured, integer done) {
+    return MAKE(Comparison){measured, done, REAL(0.0), REAL(0.0), NO_SUMS, NO_SUMS, NO_SUMS, REAL(0.0), REAL(0.0)};
 }
 
 /* `value`, limited to the range from -`limit` to `limit`. */
@@ -637,6 +719,60 @@ static inline Bank model_step(ModelStep kind, real limit_deg, Bank now, real com
     const real change_deg = clip(kind.change * missing_deg + kind.change_s * now.rate_deg_s, limit_deg);
     const real rate_deg_s = clip(kind.rate * missing_deg + kind.rate_kept * now.rate_deg_s, limit_deg / STEP_S);
     return MAKE(Bank){now.bank_deg + change_deg, rate_deg_s};
+}
+
+/* The weights with those of a kind at the end, without the first ones. */
+static inline void with_next_kind(Weights *weights, const KindWeights *kind) {
+    KindWeights_ring_10_append(&weights->kinds, (*kind));
+    return;
+}
+
+/* The memory with the measured bank compared with one more kind of models. */
+static inline void compare_kind(RollMemory *memory, const RollSettings *settings) {
+    const Comparison sums = memory->comparison;
+    const integer i = memory->comparison.done;
+    const MeasuredBank measured = memory->comparison.measured;
+    real errors = sums.errors, squares = sums.squares, lag_s = sums.lag_s, second = sums.second;
+    Sums time = sums.time, rate = sums.rate, delay = sums.delay;
+    const ModelStep kind = settings->kinds.at[i];
+    KindWeights weights = memory->weights.kinds.at[0];
+    const real variance_deg2 = memory->weights.variance_deg2;
+    const real kept = real_exp(-variance_deg2 / (variance_deg2 + EXCITED_DEG * EXCITED_DEG) * measured.since_s /
+            MEMORY_S);
+    const real scale = -REAL(0.5) * measured.since_s / (CORRELATION_S * ERROR_DEG * ERROR_DEG);
+    const real measured_deg = measured.bank_deg, done = measured.after_s / STEP_S, largest = LARGEST_ERROR_DEG *
+            LARGEST_ERROR_DEG;
+    const real kind_log = settings->kind_logs.at[i] - memory->weights.log_total;
+    for (integer j = 0; j < RATES; j++) {
+        const real limit_deg = settings->limits_deg.at[j], model_log = kind_log + settings->rate_logs.at[j];
+        Bank now = memory->models.kinds.at[i].at[j].earliest;
+        real_ring_14 pairs = weights.logs.at[0];
+        real total = REAL(0.0);
+        for (integer k = 0; k < DELAYS; k++) {
+            const Bank after = model_step(kind, limit_deg, now, memory->models.commands_deg.at[k]);
+            const real error = now.bank_deg + done * (after.bank_deg - now.bank_deg) - measured_deg;
+            now = after;
+            const real square = error * error;
+            errors = errors + error;
+            squares = squares + square;
+            const real one = kept * pairs.at[0] + scale * (square < largest ? square : largest);
+            const real weight = real_exp(model_log + settings->delay_logs.at[k] + one);
+            real_ring_14_append(&pairs, one);
+            total = total + weight;
+            delay = with_index(delay, k, weight);
+        }
+        real_ring_14_ring_6_append(&weights.logs, pairs);
+        real_ring_6_append(&weights.probabilities, total);
+        time = with_index(time, time_index(i), total);
+        rate = with_index(rate, j, total);
+        lag_s = lag_s + total * kind.lag_s;
+        second = second + (kind.lag_s > REAL(0.0) ? total : REAL(0.0));
+    }
+    const Comparison comparison = MAKE(Comparison){measured, i + 1, errors, squares, time, rate, delay, lag_s,
+            second};
+    memory->comparison = comparison;
+    with_next_kind(&memory->weights, &weights);
+    return;
 }
 
 /* To what extent measurements count instead of what is declared, from 0 to 1. */
@@ -655,68 +791,40 @@ static inline real cautious_estimate(const Unknown *unknown, Sums sums) {
     return estimate_of(unknown, sums) - RATE_CAUTION * measured_share(unknown, sums) * deviation;
 }
 
-/* The weights after a bank that was measured within the last step of the models. */
-static inline void update_weights(Weights *weights, const RollSettings *settings, const Models *models, MeasuredBank
-        measured) {
-    const real variance_deg2 = weights->variance_deg2, log_total = weights->log_total;
-    const real kept = real_exp(-variance_deg2 / (variance_deg2 + EXCITED_DEG * EXCITED_DEG) * measured.since_s /
-            MEMORY_S);
-    const real scale = -REAL(0.5) * measured.since_s / (CORRELATION_S * ERROR_DEG * ERROR_DEG);
-    const real measured_deg = measured.bank_deg, done = measured.after_s / STEP_S, largest = LARGEST_ERROR_DEG *
-            LARGEST_ERROR_DEG;
-    real errors = REAL(0.0), squares = REAL(0.0), index = REAL(0.0), index_square = REAL(0.0);
-    Sums time = NO_SUMS, rate = NO_SUMS;
-    real lag_s = REAL(0.0), second = REAL(0.0);
-    for (integer i = 0; i < KINDS; i++) {
-        const ModelStep kind = settings->kinds.at[i];
-        real time_log = declared_log(&settings->time, (real)integer_quotient(i, ORDERS)) - log_total;
-        if (kind.lag_s > REAL(0.0)) {
-            time_log += real_log(SECOND_SHARE);
-        }
-        for (integer j = 0; j < RATES; j++) {
-            const real limit_deg = settings->limits_deg.at[j], model_log = time_log +
-                    declared_log(&settings->rate, (real)j);
-            Bank now = models->models.at[i * RATES + j].earliest;
-            real_ring_14 pairs = weights->logs.at[0];
-            real total = REAL(0.0);
-            for (integer k = 0; k < DELAYS; k++) {
-                const Bank after = model_step(kind, limit_deg, now, models->commands_deg.at[k]);
-                const real error = now.bank_deg + done * (after.bank_deg - now.bank_deg) - measured_deg;
-                now = after;
-                const real square = error * error;
-                errors = errors + error;
-                squares = squares + square;
-                const real one = kept * pairs.at[0] + scale * (square < largest ? square : largest);
-                const real weight = real_exp(model_log + settings->delay_logs.at[k] + one);
-                real_ring_14_append(&pairs, one);
-                total = total + weight;
-                index = index + (real)k * weight;
-                index_square = index_square + (real)(k * k) * weight;
-            }
-            real_ring_14_ring_60_append(&weights->logs, pairs);
-            real_ring_60_append(&weights->probabilities, total);
-            time = with_index(time, integer_quotient(i, ORDERS), total);
-            rate = with_index(rate, j, total);
-            lag_s = lag_s + total * kind.lag_s;
-            second = second + (kind.lag_s > REAL(0.0) ? total : REAL(0.0));
-        }
-    }
-    for (integer pass_1 = 0; pass_1 < MODELS; pass_1++) {
-        real_ring_60_append(&weights->probabilities, weights->probabilities.at[0] / time.total);
-    }
+/* The weights with the estimate after a comparison with all kinds. */
+static inline void estimate_anew(Weights *weights, const RollSettings *settings, const Comparison *sums) {
+    const real total = sums->time.total;
     /* A roll of first order is declared. */
-    const real share = measured_share(&settings->time, time) / time.total;
-    const real time_s = real_exp(estimate_of(&settings->time, time)) * (REAL(1.0) + share * second * (SECOND_TIME
-            - REAL(1.0)));
-    lag_s *= share;
+    const real share = measured_share(&settings->time, sums->time) / total;
+    const real time_s = real_exp(estimate_of(&settings->time, sums->time)) * (REAL(1.0) + share * sums->second
+            * (SECOND_TIME - REAL(1.0)));
+    real lag_s = share * sums->lag_s;
     lag_s = lag_s > NEGLIGIBLE_LAG_S ? lag_s : REAL(0.0);
-    const RollValues roll = MAKE(RollValues){time_s, real_exp(cautious_estimate(&settings->rate, rate)), lag_s};
-    const real delay_s = max_real(estimate_of(&settings->delay, MAKE(Sums){time.total, index, index_square}),
-            REAL(0.0));
-    const real mean = errors / (real)(MODELS * DELAYS);
-    weights->log_total = log_total + real_log(time.total);
-    weights->variance_deg2 = max_real(squares / (real)(MODELS * DELAYS) - mean * mean, REAL(0.0));
-    weights->estimate = MAKE(RollEstimate){roll, delay_s};
+    const RollValues roll = MAKE(RollValues){time_s, real_exp(cautious_estimate(&settings->rate, sums->rate)),
+            lag_s};
+    const real mean = sums->errors / (real)(MODELS * DELAYS);
+    const real new_1 = weights->log_total + real_log(total);
+    weights->total = total;
+    weights->log_total = new_1;
+    weights->variance_deg2 = max_real(sums->squares / (real)(MODELS * DELAYS) - mean * mean, REAL(0.0));
+    weights->estimate = MAKE(RollEstimate){roll, max_real(estimate_of(&settings->delay, sums->delay),
+            REAL(0.0))};
+    return;
+}
+
+/* The memory with the measured bank compared with so many more kinds, and with another estimate after the last. */
+static inline void compare(RollMemory *memory, const RollSettings *settings, integer kinds) {
+    if (memory->comparison.done == KINDS) {
+        return;
+    }
+    const integer last = min_integer(memory->comparison.done + kinds, KINDS);
+    while (memory->comparison.done < last) {
+        compare_kind(memory, settings);
+    }
+    if (memory->comparison.done < KINDS) {
+        return;
+    }
+    estimate_anew(&memory->weights, settings, &memory->comparison);
     return;
 }
 
@@ -724,7 +832,8 @@ static inline void update_weights(Weights *weights, const RollSettings *settings
 static inline void begin_roll(RollMemory *memory, const RollSettings *settings) {
     memory->since_s = CORRELATION_S;
     /* A measurement that counts for no time leaves the probabilities as they are declared. */
-    update_weights(&memory->weights, settings, &memory->models, NOTHING_MEASURED);
+    memory->comparison = comparison_with(NOTHING_MEASURED, 0);
+    compare(memory, settings, KINDS);
     return;
 }
 
@@ -770,6 +879,40 @@ static APART void begin_identification(Identification *memory, const Identificat
     return;
 }
 
+/* All models after a step under the mean command. */
+static inline void step_models(Models *models, const RollSettings *settings, real command_deg) {
+    const real oldest_deg = models->commands_deg.at[0];
+    for (integer i = 0; i < KINDS; i++) {
+        const ModelStep kind = settings->kinds.at[i];
+        RollModel_ring_6 rolls = models->kinds.at[0];
+        for (integer j = 0; j < RATES; j++) {
+            const RollModel one = rolls.at[0];
+            const real limit_deg = settings->limits_deg.at[j];
+            const Bank present = model_step(kind, limit_deg, one.present, command_deg);
+            const Bank earliest = model_step(kind, limit_deg, one.earliest, oldest_deg);
+            RollModel_ring_6_append(&rolls, MAKE(RollModel){present, earliest});
+        }
+        RollModel_ring_6_ring_10_append(&models->kinds, rolls);
+    }
+    real_ring_14_append(&models->commands_deg, command_deg);
+    return;
+}
+
+/* The weighted means of the banks of the models, and of their rates, as far as these go on. */
+static inline Bank mean_bank(const RollMemory *memory, const RollSettings *settings) {
+    real bank_deg = REAL(0.0), lag_s = REAL(0.0), coasted_deg = REAL(0.0);
+    for (integer i = 0; i < KINDS; i++) {
+        for (integer j = 0; j < RATES; j++) {
+            const real probability = memory->weights.kinds.at[i].probabilities.at[j];
+            const Bank now = memory->models.kinds.at[i].at[j].present;
+            bank_deg += probability * now.bank_deg;
+            lag_s += probability * settings->kinds.at[i].lag_s;
+            coasted_deg += probability * settings->kinds.at[i].lag_s * now.rate_deg_s;
+        }
+    }
+    return MAKE(Bank){bank_deg / memory->weights.total, lag_s > REAL(0.0) ? coasted_deg / lag_s : REAL(0.0)};
+}
+
 /* The exact bank after `time_s` seconds under a constant command. */
 static inline real bank_after(real roll_time_s, real rate_deg_s, real bank_deg, real command_deg, real time_s) {
     if (roll_time_s == REAL(0.0) && rate_deg_s == REAL_INFINITY) {
@@ -802,75 +945,38 @@ static inline Bank roll_after(RollValues roll, Bank now, real command_deg, real 
     return MAKE(Bank){now.bank_deg + time_s * (rate_deg_s + share * (now.rate_deg_s - rate_deg_s)), rate_deg_s};
 }
 
-/* All models after a step under the mean command. */
-static inline void step_models(Models *models, const RollSettings *settings, real command_deg) {
-    const real oldest_deg = models->commands_deg.at[0];
-    for (integer i = 0; i < KINDS; i++) {
-        const ModelStep kind = settings->kinds.at[i];
-        for (integer j = 0; j < RATES; j++) {
-            const RollModel one = models->models.at[0];
-            const real limit_deg = settings->limits_deg.at[j];
-            const Bank present = model_step(kind, limit_deg, one.present, command_deg);
-            const Bank earliest = model_step(kind, limit_deg, one.earliest, oldest_deg);
-            RollModel_ring_60_append(&models->models, MAKE(RollModel){present, earliest});
-        }
-    }
-    real_ring_14_append(&models->commands_deg, command_deg);
-    return;
-}
-
-/* The weighted means of the banks of the models, and of their rates, as far as these go on. */
-static inline Bank mean_bank(const RollMemory *memory, const RollSettings *settings) {
-    real bank_deg = REAL(0.0), lag_s = REAL(0.0), coasted_deg = REAL(0.0);
-    for (integer i = 0; i < KINDS; i++) {
-        for (integer j = 0; j < RATES; j++) {
-            const real probability = memory->weights.probabilities.at[i * RATES + j];
-            const Bank now = memory->models.models.at[i * RATES + j].present;
-            bank_deg += probability * now.bank_deg;
-            lag_s += probability * settings->kinds.at[i].lag_s;
-            coasted_deg += probability * settings->kinds.at[i].lag_s * now.rate_deg_s;
-        }
-    }
-    return MAKE(Bank){bank_deg, lag_s > REAL(0.0) ? coasted_deg / lag_s : REAL(0.0)};
-}
-
-/* The memory after `dt` seconds under a command. */
+/* The memory after `dt` seconds under a command.
+ *
+ * A measured bank is compared with the models kind by kind until their next step, so that each call has its share.
+ */
 static inline void fly_models(RollMemory *memory, const RollSettings *settings, real command_deg, real dt) {
     real waiting_s = memory->waiting_s, commanded = memory->commanded;
     dt = min_real(dt, LONGEST_STEP_S);
-    const real since_s = memory->since_s + dt, missing_s = STEP_S - waiting_s;
-    Bank now;
-    if (dt < missing_s) {
-        /* Between the steps of the models the present bank is that of the estimated response. */
-        now = roll_after(memory->weights.estimate.roll, MAKE(Bank){memory->bank_deg, memory->bank_rate_deg_s},
-                command_deg, dt);
-        waiting_s = waiting_s + dt;
-        commanded = commanded + dt * command_deg;
-        memory->bank_deg = now.bank_deg;
-        memory->bank_rate_deg_s = now.rate_deg_s;
-        memory->waiting_s = waiting_s;
-        memory->commanded = commanded;
-        memory->since_s = since_s;
-        return;
+    Bank now = MAKE(Bank){memory->bank_deg, memory->bank_rate_deg_s};
+    real left_s = dt;
+    memory->since_s = memory->since_s + dt;
+    while (left_s >= STEP_S - waiting_s) {
+        const real mean_deg = (commanded + (STEP_S - waiting_s) * command_deg) / STEP_S;
+        compare(memory, settings, KINDS);
+        step_models(&memory->models, settings, mean_deg);
+        if (memory->measured.since_s > REAL(0.0)) {
+            memory->comparison = comparison_with(memory->measured, 0);
+            memory->measured = NOTHING_MEASURED;
+        }
+        left_s = left_s - (STEP_S - waiting_s);
+        waiting_s = REAL(0.0);
+        commanded = REAL(0.0);
+        now = mean_bank(memory, settings);
     }
-    const real mean_deg = (commanded + missing_s * command_deg) / STEP_S;
-    step_models(&memory->models, settings, mean_deg);
-    if (memory->measured.since_s > REAL(0.0)) {
-        update_weights(&memory->weights, settings, &memory->models, memory->measured);
-    }
-    real left_s = dt - missing_s;
-    while (left_s >= STEP_S) {
-        step_models(&memory->models, settings, command_deg);
-        left_s -= STEP_S;
-    }
-    now = roll_after(memory->weights.estimate.roll, mean_bank(memory, settings), command_deg, left_s);
-    commanded = left_s * command_deg;
+    waiting_s = waiting_s + left_s;
+    commanded = commanded + left_s * command_deg;
+    compare(memory, settings, integer_of(real_ceil((real)KINDS * dt / STEP_S)));
+    /* Between the steps of the models the present bank is that of the estimated response. */
+    now = roll_after(memory->weights.estimate.roll, now, command_deg, left_s);
     memory->bank_deg = now.bank_deg;
     memory->bank_rate_deg_s = now.rate_deg_s;
-    memory->waiting_s = left_s;
+    memory->waiting_s = waiting_s;
     memory->commanded = commanded;
-    memory->since_s = since_s;
-    memory->measured = NOTHING_MEASURED;
     return;
 }
 
@@ -933,8 +1039,9 @@ static inline State remove_bias(const VehicleEstimates *known, const State *stat
 
 /* The models at a bank that has always been this. */
 static inline Models constant_models(real bank_deg) {
-    return MAKE(Models){real_ring_14_filled(bank_deg), RollModel_ring_60_filled(MAKE(RollModel){MAKE(Bank){bank_deg,
-            REAL(0.0)}, MAKE(Bank){bank_deg, REAL(0.0)}})};
+    return MAKE(Models){real_ring_14_filled(bank_deg),
+            RollModel_ring_6_ring_10_filled(RollModel_ring_6_filled(MAKE(RollModel){MAKE(Bank){bank_deg, REAL(0.0)},
+            MAKE(Bank){bank_deg, REAL(0.0)}}))};
 }
 
 /* The memory with every model at a bank. */

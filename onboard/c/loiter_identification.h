@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 6d4c29af4c06f888e9ebcc6ea70ce367045361c8d0399bb87e47e56b62ec9982
+ * SHA-256 of the source: e52f0e0bc959637f227294f69425cfb907cda90027052b043de142e135fc00bb
  */
 #ifndef LOITER_IDENTIFICATION_H
 #define LOITER_IDENTIFICATION_H
@@ -18,25 +18,32 @@ extern "C" {
 typedef struct { loiter_real declared, at_index, step, spread, bias, variance; } loiter_Unknown;
 typedef struct { loiter_real change, change_s, rate, rate_kept, lag_s; } loiter_ModelStep;
 typedef struct { loiter_ModelStep at[10]; } loiter_ModelStep_ring_10;
+typedef struct { loiter_real at[10]; } loiter_real_ring_10;
 typedef struct { loiter_real at[6]; } loiter_real_ring_6;
 typedef struct { loiter_real at[14]; } loiter_real_ring_14;
-typedef struct { loiter_Unknown time, rate, delay; loiter_ModelStep_ring_10 kinds; loiter_real_ring_6 limits_deg;
-        loiter_real_ring_14 delay_logs; } loiter_RollSettings;
+typedef struct { loiter_Unknown time, rate, delay; loiter_ModelStep_ring_10 kinds; loiter_real_ring_10 kind_logs;
+        loiter_real_ring_6 limits_deg; loiter_real_ring_6 rate_logs; loiter_real_ring_14 delay_logs; }
+        loiter_RollSettings;
 typedef struct { loiter_VehicleEstimates declared; loiter_real wind_known_s, limit_deg; loiter_RollSettings roll; }
         loiter_IdentificationSettings;
 typedef struct { loiter_Clock clock; loiter_real waited_s, used_s; } loiter_Stamps;
 typedef struct { loiter_real bank_deg, after_s, since_s; } loiter_MeasuredBank;
+typedef struct { loiter_real total, weighted, squared; } loiter_Sums;
+typedef struct { loiter_MeasuredBank measured; loiter_integer done; loiter_real errors, squares; loiter_Sums time,
+        rate, delay; loiter_real lag_s, second; } loiter_Comparison;
 typedef struct { loiter_real bank_deg, rate_deg_s; } loiter_Bank;
 typedef struct { loiter_Bank present, earliest; } loiter_RollModel;
-typedef struct { loiter_RollModel at[60]; } loiter_RollModel_ring_60;
-typedef struct { loiter_real_ring_14 commands_deg; loiter_RollModel_ring_60 models; } loiter_Models;
-typedef struct { loiter_real_ring_14 at[60]; } loiter_real_ring_14_ring_60;
-typedef struct { loiter_real at[60]; } loiter_real_ring_60;
+typedef struct { loiter_RollModel at[6]; } loiter_RollModel_ring_6;
+typedef struct { loiter_RollModel_ring_6 at[10]; } loiter_RollModel_ring_6_ring_10;
+typedef struct { loiter_real_ring_14 commands_deg; loiter_RollModel_ring_6_ring_10 kinds; } loiter_Models;
+typedef struct { loiter_real_ring_14 at[6]; } loiter_real_ring_14_ring_6;
+typedef struct { loiter_real_ring_14_ring_6 logs; loiter_real_ring_6 probabilities; } loiter_KindWeights;
+typedef struct { loiter_KindWeights at[10]; } loiter_KindWeights_ring_10;
 typedef struct { loiter_RollValues roll; loiter_real delay_s; } loiter_RollEstimate;
-typedef struct { loiter_real_ring_14_ring_60 logs; loiter_real log_total, variance_deg2; loiter_real_ring_60
-        probabilities; loiter_RollEstimate estimate; } loiter_Weights;
+typedef struct { loiter_KindWeights_ring_10 kinds; loiter_real total, log_total, variance_deg2; loiter_RollEstimate
+        estimate; } loiter_Weights;
 typedef struct { loiter_real bank_deg, bank_rate_deg_s, waiting_s, commanded, since_s; loiter_MeasuredBank measured;
-        loiter_Models models; loiter_Weights weights; } loiter_RollMemory;
+        loiter_Comparison comparison; loiter_Models models; loiter_Weights weights; } loiter_RollMemory;
 typedef struct { loiter_real xx, xu, uu, xy, uy; } loiter_TurnSums;
 typedef struct { loiter_real ratio, bank_bias_deg; loiter_TurnSums sums; loiter_real last_deg, last_rate,
         last_slope, measured_deg, computed_deg, of_bias_deg; } loiter_SlowTurns;

@@ -1,7 +1,7 @@
 """Identification of the vehicle in flight: roll response and delay, turn ratio, lead of the course, wind."""
 
 from itertools import pairwise
-from math import degrees, pi, radians, sin
+from math import ceil, degrees, pi, radians, sin
 
 import numpy as np
 import pytest
@@ -19,11 +19,14 @@ from loiter.guidance.estimation.identification_step import (
 from loiter.guidance.estimation.roll_response import (
     DECLARED_RATE,
     DECLARED_TIME,
+    KINDS,
     RATE_RATIO,
     RATES,
     SECOND_TIME,
+    STEP_S,
     TIME_RATIO,
     add_measured_bank,
+    compare,
     first_roll,
     fly_models,
     roll_settings,
@@ -69,6 +72,12 @@ def identified(roll, delay_s, *, noise_deg=0.5, seconds=12.0, dt=0.02):
     return memory.weights.estimate, np.array(errors)
 
 
+def probabilities(memory, settings):
+    """Those of the models, by kind and rate, once the last measured bank is compared with all of them."""
+    weights = compare(memory, settings, KINDS).weights
+    return np.array([kind.probabilities for kind in weights.kinds]) / weights.total
+
+
 @pytest.mark.parametrize("delay_s", [0.0, 0.3, 0.8])
 @pytest.mark.parametrize("roll", [Roll(0.12, 130.0), Roll(0.4, 75.0), Roll(1.0, 50.0)])
 def test_roll_response_and_delay_are_found(roll, delay_s):
@@ -110,7 +119,7 @@ def test_a_rate_that_measurements_leave_open_is_taken_for_lower():
         memory = fly_models(add_measured_bank(memory, bank), settings, command, 0.04)
         bank = Roll(0.5, 60.0).bank_after(bank, command, 0.04)
     rates = 60.0 * RATE_RATIO ** (np.arange(RATES) - DECLARED_RATE)
-    shares = np.reshape(memory.weights.probabilities, (-1, RATES)).sum(axis=0)
+    shares = probabilities(memory, settings).sum(axis=0)
     assert np.sum(shares > 0.1) >= 3
     assert memory.weights.estimate.roll.rate_deg_s < 0.95 * np.exp(shares @ np.log(rates))
 
@@ -138,7 +147,7 @@ def test_a_long_flight_of_wrong_predictions_leaves_the_probabilities_finite():
     for i in range(6000):
         command_deg = 35.0 if i % 100 < 50 else -35.0
         memory = fly_models(add_measured_bank(memory, -command_deg), settings, command_deg, 0.05)
-    assert sum(memory.weights.probabilities) == pytest.approx(1.0)
+    assert probabilities(memory, settings).sum() == pytest.approx(1.0)
     # Within the models: the quickest has a lag of its rate.
     quickest_s = SECOND_TIME * 0.5 / TIME_RATIO**DECLARED_TIME
     assert quickest_s < memory.weights.estimate.roll.time_s < 1.0
@@ -151,6 +160,20 @@ def test_a_constant_bank_teaches_nothing_and_makes_nothing_forgotten():
         memory = fly_models(add_measured_bank(memory, 20.0), settings, 20.0, 0.02)
     assert memory.weights.estimate.delay_s == pytest.approx(0.1, abs=1e-6)
     assert memory.weights.estimate.roll.time_s == pytest.approx(0.5, rel=1e-6)
+
+
+@pytest.mark.parametrize("dt", [0.0025, 0.02, 0.05, 0.1, 0.5])
+def test_a_measured_bank_is_compared_with_all_models_by_their_next_step(dt):
+    """In steps of 20 ms, with a fifth of them in each; in longer ones with all."""
+    settings = roll_settings(RollValues(0.5, 60.0, 0.0), 0.1)
+    memory, compared = start_models(first_roll(settings), 0.0), []
+    for i in range(round(4.0 / dt)):
+        memory = fly_models(add_measured_bank(memory, 10.0 * sin(i * dt)), settings, 30.0, dt)
+        compared.append(memory.comparison.done)
+    shares = [(b - a) % KINDS for a, b in pairwise(compared)]
+    assert max(shares) <= max(ceil(KINDS * dt / STEP_S), 1)
+    # One is compared every 0.15 to 0.2 s.
+    assert dt >= STEP_S or sum(b < a for a, b in pairwise(compared)) >= 19
 
 
 @pytest.mark.parametrize("ratio", [0.7, 0.9, 1.1])

@@ -15,7 +15,7 @@ again when a bank was measured.
 
 from __future__ import annotations
 
-from math import exp, log, sqrt
+from math import ceil, exp, log, sqrt
 from typing import Annotated, NamedTuple
 
 from loiter.guidance.vehicle.limits import clip
@@ -26,16 +26,16 @@ from loiter.guidance.vehicle.rolling import Bank, RollValues, roll_after
 TIMES, TIME_RATIO, DECLARED_TIME = 5, 1.8, 3
 RATES, RATE_RATIO, DECLARED_RATE = 6, 1.45, 3
 
-# Each is of first order and, with these multiples of its time constant and of that as the lag of its rate, of second
-# order: as quick to 63 %, with an overshoot of 13 %.
-ORDERS, SECOND_TIME, SECOND_LAG = 2, 0.71, 0.58
+# Each is of first order and, the slowest ones, of second order too, with these multiples of its time constant as the
+# time constant and the lag of its rate: as quick to 63 %, with an overshoot of 13 %.
+SECOND_TIMES, SECOND_TIME, SECOND_LAG = 5, 0.71, 0.58
 
 # A roll of first order is declared: the others have this share of the probability of the same roll of first order.
 SECOND_SHARE = 0.5
 
 # A shorter lag of the bank rate, seconds, counts as none.
 NEGLIGIBLE_LAG_S = 0.01
-KINDS = TIMES * ORDERS
+KINDS = TIMES + SECOND_TIMES
 MODELS = KINDS * RATES
 
 # The models make steps of this length, seconds. The delays are whole steps, from the longest one down to 0.
@@ -126,15 +126,17 @@ def decayed(now: Bank, time_s: float, lag_s: float, dt: float) -> Bank:
 class RollSettings(NamedTuple):
     """The models: the step that each makes, and the limit of the change of bank in it, degrees.
 
-    Time constants and rate limits are unknown by their logarithms. `delay_logs` are the logarithms of the probabilities
-    of the delays as declared.
+    Time constants and rate limits are unknown by their logarithms. `kind_logs`, `rate_logs` and `delay_logs` are the
+    logarithms of the probabilities as declared.
     """
 
     time: Unknown
     rate: Unknown
     delay: Unknown
     kinds: Annotated[tuple[ModelStep, ...], KINDS]
+    kind_logs: Annotated[tuple[float, ...], KINDS]
     limits_deg: Annotated[tuple[float, ...], RATES]
+    rate_logs: Annotated[tuple[float, ...], RATES]
     delay_logs: Annotated[tuple[float, ...], DELAYS]
 
 
@@ -146,14 +148,14 @@ class RollModel(NamedTuple):
 
 
 class Models(NamedTuple):
-    """All models, and the commands of their last steps, degrees, the oldest first."""
+    """All models, kind by kind, and the commands of their last steps, degrees, the oldest first."""
 
     commands_deg: Annotated[tuple[float, ...], DELAYS]
-    models: Annotated[tuple[RollModel, ...], MODELS]
+    kinds: Annotated[tuple[Annotated[tuple[RollModel, ...], RATES], ...], KINDS]
 
 
 class MeasuredBank(NamedTuple):
-    """A measured bank that waits for the next step of the models.
+    """A measured bank that waits for the next step of the models, or is compared with them.
 
     `after_s` is the time since the last step when it arrived, `since_s` that since the last bank that was used; 0 where
     no bank waits.
@@ -167,17 +169,61 @@ class MeasuredBank(NamedTuple):
 NOTHING_MEASURED = MeasuredBank(0.0, 0.0, 0.0)
 
 
-class Weights(NamedTuple):
-    """What the measurements say: the probabilities of the models, and the estimate.
+class Sums(NamedTuple):
+    """The sums of the weights of indices, of the weighted indices, and of their weighted squares."""
 
-    `logs` are the logarithms of the probabilities of the pairs of a model and a delay, from measurements alone, up to a
-    constant; `log_total` is that of the sum of the probabilities. The last predictions had this variance.
+    total: float
+    weighted: float
+    squared: float
+
+
+NO_SUMS = Sums(0.0, 0.0, 0.0)
+
+
+class Comparison(NamedTuple):
+    """A measured bank that is compared with the models, of which so many kinds are done, and the sums over these.
+
+    The sums of prediction errors and of their squares; of the probabilities by the indices of time constants, rates and
+    delays; and of the lags and of the probabilities of the second order.
     """
 
-    logs: Annotated[tuple[Annotated[tuple[float, ...], DELAYS], ...], MODELS]
+    measured: MeasuredBank
+    done: int
+    errors: float
+    squares: float
+    time: Sums
+    rate: Sums
+    delay: Sums
+    lag_s: float
+    second: float
+
+
+def comparison_with(measured: MeasuredBank, done: int) -> Comparison:
+    """A comparison with a measured bank of which so many kinds count as done."""
+    return Comparison(measured, done, 0.0, 0.0, NO_SUMS, NO_SUMS, NO_SUMS, 0.0, 0.0)
+
+
+class KindWeights(NamedTuple):
+    """The probabilities of the models of a kind.
+
+    `logs` are the logarithms of the probabilities of the pairs of a model and a delay, from measurements alone, up to a
+    constant.
+    """
+
+    logs: Annotated[tuple[Annotated[tuple[float, ...], DELAYS], ...], RATES]
+    probabilities: Annotated[tuple[float, ...], RATES]
+
+
+class Weights(NamedTuple):
+    """What the measurements say: the probabilities of the models, of which `total` is the sum, and the estimate.
+
+    `log_total` is the logarithm of the sum of the probabilities before. The last predictions had this variance.
+    """
+
+    kinds: Annotated[tuple[KindWeights, ...], KINDS]
+    total: float
     log_total: float
     variance_deg2: float
-    probabilities: Annotated[tuple[float, ...], MODELS]
     estimate: RollEstimate
 
 
@@ -194,6 +240,7 @@ class RollMemory(NamedTuple):
     commanded: float
     since_s: float
     measured: MeasuredBank
+    comparison: Comparison
     models: Models
     weights: Weights
 
@@ -208,16 +255,37 @@ def roll_settings(declared: RollValues, delay_s: float) -> RollSettings:
     rate = unknown_of(log(rate_deg_s), DECLARED_RATE, log(RATE_RATIO), SPREAD, RATES)
     delay_s = min(delay_s, STEP_S * (DELAYS - 1))
     delay = unknown_of(delay_s, DELAYS - 1 - delay_s / STEP_S, -STEP_S, DELAY_SPREAD_S, DELAYS)
-    kinds, limits_deg, delay_logs = (NO_MODEL_STEP,) * KINDS, (0.0,) * RATES, (0.0,) * DELAYS
-    for i in range(TIMES):
-        one_s = exp(value_at(time, i))
-        kinds = (*kinds[1:], step_of(one_s, 0.0))
-        kinds = (*kinds[1:], step_of(SECOND_TIME * one_s, SECOND_LAG * one_s))
+    kinds, kind_logs, delay_logs = (NO_MODEL_STEP,) * KINDS, (0.0,) * KINDS, (0.0,) * DELAYS
+    limits_deg, rate_logs = (0.0,) * RATES, (0.0,) * RATES
+    for i in range(KINDS):
+        at = time_index(i)
+        one_s, share = exp(value_at(time, at)), SECOND_SHARE
+        if i < TIMES:
+            share = 1.0 if i >= TIMES - SECOND_TIMES else 1.0 + SECOND_SHARE
+            kinds = (*kinds[1:], step_of(one_s, 0.0))
+        else:
+            kinds = (*kinds[1:], step_of(SECOND_TIME * one_s, SECOND_LAG * one_s))
+        kind_logs = (*kind_logs[1:], declared_log(time, at) + log(share))
     for i in range(RATES):
         limits_deg = (*limits_deg[1:], STEP_S * exp(value_at(rate, i)))
+        rate_logs = (*rate_logs[1:], declared_log(rate, i))
     for i in range(DELAYS):
         delay_logs = (*delay_logs[1:], declared_log(delay, i))
-    return RollSettings(time=time, rate=rate, delay=delay, kinds=kinds, limits_deg=limits_deg, delay_logs=delay_logs)
+    return RollSettings(
+        time=time,
+        rate=rate,
+        delay=delay,
+        kinds=kinds,
+        kind_logs=kind_logs,
+        limits_deg=limits_deg,
+        rate_logs=rate_logs,
+        delay_logs=delay_logs,
+    )
+
+
+def time_index(kind: int) -> int:
+    """The index of the time constant of a kind: those of first order come first, then the slowest of second order."""
+    return kind if kind < TIMES else kind - SECOND_TIMES
 
 
 def unknown_of(declared: float, index: float, step: float, spread: float, count: int) -> Unknown:
@@ -237,17 +305,6 @@ def declared_log(unknown: Unknown, index: float) -> float:
     """The logarithm of the probability of an index, as declared, up to a constant."""
     off = unknown.step * (index - unknown.at_index) / unknown.spread
     return -0.5 * off * off
-
-
-class Sums(NamedTuple):
-    """The sums of the weights of indices, of the weighted indices, and of their weighted squares."""
-
-    total: float
-    weighted: float
-    squared: float
-
-
-NO_SUMS = Sums(0.0, 0.0, 0.0)
 
 
 def with_index(sums: Sums, index: int, weight: float) -> Sums:
@@ -290,12 +347,13 @@ def begin_roll(memory: RollMemory, settings: RollSettings) -> RollMemory:
     """`NO_ROLL`, which is given, with the estimate before the first command."""
     memory = memory._replace(since_s=CORRELATION_S)
     # A measurement that counts for no time leaves the probabilities as they are declared.
-    return memory._replace(weights=update_weights(memory.weights, settings, memory.models, NOTHING_MEASURED))
+    memory = memory._replace(comparison=comparison_with(NOTHING_MEASURED, 0))
+    return compare(memory, settings, KINDS)
 
 
 def constant_models(bank_deg: float) -> Models:
     """The models at a bank that has always been this."""
-    return Models((bank_deg,) * DELAYS, (RollModel(Bank(bank_deg, 0.0), Bank(bank_deg, 0.0)),) * MODELS)
+    return Models((bank_deg,) * DELAYS, ((RollModel(Bank(bank_deg, 0.0), Bank(bank_deg, 0.0)),) * RATES,) * KINDS)
 
 
 NO_ROLL = RollMemory(
@@ -305,12 +363,13 @@ NO_ROLL = RollMemory(
     commanded=0.0,
     since_s=0.0,
     measured=NOTHING_MEASURED,
+    comparison=comparison_with(NOTHING_MEASURED, KINDS),
     models=constant_models(0.0),
     weights=Weights(
-        logs=((0.0,) * DELAYS,) * MODELS,
+        kinds=(KindWeights(((0.0,) * DELAYS,) * RATES, (0.0,) * RATES),) * KINDS,
+        total=1.0,
         log_total=0.0,
         variance_deg2=0.0,
-        probabilities=(0.0,) * MODELS,
         estimate=RollEstimate(RollValues(0.0, 0.0, 0.0), 0.0),
     ),
 )
@@ -322,34 +381,29 @@ def start_models(memory: RollMemory, bank_deg: float) -> RollMemory:
 
 
 def fly_models(memory: RollMemory, settings: RollSettings, command_deg: float, dt: float) -> RollMemory:
-    """The memory after `dt` seconds under a command."""
+    """The memory after `dt` seconds under a command.
+
+    A measured bank is compared with the models kind by kind until their next step, so that each call has its share.
+    """
     waiting_s, commanded, dt = memory.waiting_s, memory.commanded, min(dt, LONGEST_STEP_S)
-    since_s, missing_s = memory.since_s + dt, STEP_S - waiting_s
-    if dt < missing_s:
-        # Between the steps of the models the present bank is that of the estimated response.
-        now = roll_after(memory.weights.estimate.roll, Bank(memory.bank_deg, memory.bank_rate_deg_s), command_deg, dt)
-        waiting_s, commanded = waiting_s + dt, commanded + dt * command_deg
-        return memory._replace(
-            bank_deg=now.bank_deg,
-            bank_rate_deg_s=now.rate_deg_s,
-            waiting_s=waiting_s,
-            commanded=commanded,
-            since_s=since_s,
-        )
-    mean_deg = (commanded + missing_s * command_deg) / STEP_S
-    memory = memory._replace(models=step_models(memory.models, settings, mean_deg))
-    if memory.measured.since_s > 0.0:
-        memory = memory._replace(weights=update_weights(memory.weights, settings, memory.models, memory.measured))
-    left_s = dt - missing_s
-    while left_s >= STEP_S:
-        memory = memory._replace(models=step_models(memory.models, settings, command_deg))
-        left_s -= STEP_S
-    now = roll_after(memory.weights.estimate.roll, mean_bank(memory, settings), command_deg, left_s)
-    commanded = left_s * command_deg
-    memory = memory._replace(
-        bank_deg=now.bank_deg, bank_rate_deg_s=now.rate_deg_s, waiting_s=left_s, commanded=commanded, since_s=since_s
+    now, left_s = Bank(memory.bank_deg, memory.bank_rate_deg_s), dt
+    memory = memory._replace(since_s=memory.since_s + dt)
+    while left_s >= STEP_S - waiting_s:
+        mean_deg = (commanded + (STEP_S - waiting_s) * command_deg) / STEP_S
+        memory = compare(memory, settings, KINDS)
+        memory = memory._replace(models=step_models(memory.models, settings, mean_deg))
+        if memory.measured.since_s > 0.0:
+            memory = memory._replace(comparison=comparison_with(memory.measured, 0))
+            memory = memory._replace(measured=NOTHING_MEASURED)
+        left_s, waiting_s, commanded = left_s - (STEP_S - waiting_s), 0.0, 0.0
+        now = mean_bank(memory, settings)
+    waiting_s, commanded = waiting_s + left_s, commanded + left_s * command_deg
+    memory = compare(memory, settings, ceil(KINDS * dt / STEP_S))
+    # Between the steps of the models the present bank is that of the estimated response.
+    now = roll_after(memory.weights.estimate.roll, now, command_deg, left_s)
+    return memory._replace(
+        bank_deg=now.bank_deg, bank_rate_deg_s=now.rate_deg_s, waiting_s=waiting_s, commanded=commanded
     )
-    return memory._replace(measured=NOTHING_MEASURED)
 
 
 def mean_bank(memory: RollMemory, settings: RollSettings) -> Bank:
@@ -357,11 +411,11 @@ def mean_bank(memory: RollMemory, settings: RollSettings) -> Bank:
     bank_deg, lag_s, coasted_deg = 0.0, 0.0, 0.0
     for i in range(KINDS):
         for j in range(RATES):
-            probability, now = memory.weights.probabilities[i * RATES + j], memory.models.models[i * RATES + j].present
+            probability, now = memory.weights.kinds[i].probabilities[j], memory.models.kinds[i][j].present
             bank_deg += probability * now.bank_deg
             lag_s += probability * settings.kinds[i].lag_s
             coasted_deg += probability * settings.kinds[i].lag_s * now.rate_deg_s
-    return Bank(bank_deg, coasted_deg / lag_s if lag_s > 0.0 else 0.0)
+    return Bank(bank_deg / memory.weights.total, coasted_deg / lag_s if lag_s > 0.0 else 0.0)
 
 
 def model_step(kind: ModelStep, limit_deg: float, now: Bank, command_deg: float) -> Bank:
@@ -384,56 +438,87 @@ def step_models(models: Models, settings: RollSettings, command_deg: float) -> M
     """All models after a step under the mean command."""
     oldest_deg = models.commands_deg[0]
     for i in range(KINDS):
-        kind = settings.kinds[i]
+        kind, rolls = settings.kinds[i], models.kinds[0]
         for j in range(RATES):
-            one, limit_deg = models.models[0], settings.limits_deg[j]
+            one, limit_deg = rolls[0], settings.limits_deg[j]
             present = model_step(kind, limit_deg, one.present, command_deg)
             earliest = model_step(kind, limit_deg, one.earliest, oldest_deg)
-            models = models._replace(models=(*models.models[1:], RollModel(present, earliest)))
+            rolls = (*rolls[1:], RollModel(present, earliest))
+        models = models._replace(kinds=(*models.kinds[1:], rolls))
     return models._replace(commands_deg=(*models.commands_deg[1:], command_deg))
 
 
-def update_weights(weights: Weights, settings: RollSettings, models: Models, measured: MeasuredBank) -> Weights:
-    """The weights after a bank that was measured within the last step of the models."""
-    variance_deg2, log_total = weights.variance_deg2, weights.log_total
+def compare(memory: RollMemory, settings: RollSettings, kinds: int) -> RollMemory:
+    """The memory with the measured bank compared with so many more kinds, and with another estimate after the last."""
+    if memory.comparison.done == KINDS:
+        return memory
+    last = min(memory.comparison.done + kinds, KINDS)
+    while memory.comparison.done < last:
+        memory = compare_kind(memory, settings)
+    if memory.comparison.done < KINDS:
+        return memory
+    return memory._replace(weights=estimate_anew(memory.weights, settings, memory.comparison))
+
+
+def compare_kind(memory: RollMemory, settings: RollSettings) -> RollMemory:
+    """The memory with the measured bank compared with one more kind of models."""
+    sums, i, measured = memory.comparison, memory.comparison.done, memory.comparison.measured
+    errors, squares, lag_s, second = sums.errors, sums.squares, sums.lag_s, sums.second
+    time, rate, delay = sums.time, sums.rate, sums.delay
+    kind, weights, variance_deg2 = settings.kinds[i], memory.weights.kinds[0], memory.weights.variance_deg2
     kept = exp(-variance_deg2 / (variance_deg2 + EXCITED_DEG * EXCITED_DEG) * measured.since_s / MEMORY_S)
     scale = -0.5 * measured.since_s / (CORRELATION_S * ERROR_DEG * ERROR_DEG)
     measured_deg, done, largest = measured.bank_deg, measured.after_s / STEP_S, LARGEST_ERROR_DEG * LARGEST_ERROR_DEG
-    errors, squares, index, index_square = 0.0, 0.0, 0.0, 0.0
-    time, rate = NO_SUMS, NO_SUMS
-    lag_s, second = 0.0, 0.0
-    for i in range(KINDS):
-        kind, time_log = settings.kinds[i], declared_log(settings.time, i // ORDERS) - log_total
-        if kind.lag_s > 0.0:
-            time_log += log(SECOND_SHARE)
-        for j in range(RATES):
-            limit_deg, model_log = settings.limits_deg[j], time_log + declared_log(settings.rate, j)
-            now, pairs, total = models.models[i * RATES + j].earliest, weights.logs[0], 0.0
-            for k in range(DELAYS):
-                after = model_step(kind, limit_deg, now, models.commands_deg[k])
-                error = now.bank_deg + done * (after.bank_deg - now.bank_deg) - measured_deg
-                now, square = after, error * error
-                errors, squares = errors + error, squares + square
-                one = kept * pairs[0] + scale * (square if square < largest else largest)
-                weight = exp(model_log + settings.delay_logs[k] + one)
-                pairs = (*pairs[1:], one)
-                total, index, index_square = total + weight, index + k * weight, index_square + k * k * weight
-            weights = weights._replace(logs=(*weights.logs[1:], pairs))
-            weights = weights._replace(probabilities=(*weights.probabilities[1:], total))
-            time, rate = with_index(time, i // ORDERS, total), with_index(rate, j, total)
-            lag_s, second = lag_s + total * kind.lag_s, second + (total if kind.lag_s > 0.0 else 0.0)
-    for _ in range(MODELS):
-        weights = weights._replace(probabilities=(*weights.probabilities[1:], weights.probabilities[0] / time.total))
+    kind_log = settings.kind_logs[i] - memory.weights.log_total
+    for j in range(RATES):
+        limit_deg, model_log = settings.limits_deg[j], kind_log + settings.rate_logs[j]
+        now, pairs, total = memory.models.kinds[i][j].earliest, weights.logs[0], 0.0
+        for k in range(DELAYS):
+            after = model_step(kind, limit_deg, now, memory.models.commands_deg[k])
+            error = now.bank_deg + done * (after.bank_deg - now.bank_deg) - measured_deg
+            now, square = after, error * error
+            errors, squares = errors + error, squares + square
+            one = kept * pairs[0] + scale * (square if square < largest else largest)
+            weight = exp(model_log + settings.delay_logs[k] + one)
+            pairs = (*pairs[1:], one)
+            total, delay = total + weight, with_index(delay, k, weight)
+        weights = weights._replace(logs=(*weights.logs[1:], pairs))
+        weights = weights._replace(probabilities=(*weights.probabilities[1:], total))
+        time, rate = with_index(time, time_index(i), total), with_index(rate, j, total)
+        lag_s, second = lag_s + total * kind.lag_s, second + (total if kind.lag_s > 0.0 else 0.0)
+    comparison = Comparison(
+        measured=measured,
+        done=i + 1,
+        errors=errors,
+        squares=squares,
+        time=time,
+        rate=rate,
+        delay=delay,
+        lag_s=lag_s,
+        second=second,
+    )
+    memory = memory._replace(comparison=comparison)
+    return memory._replace(weights=with_next_kind(memory.weights, weights))
+
+
+def with_next_kind(weights: Weights, kind: KindWeights) -> Weights:
+    """The weights with those of a kind at the end, without the first ones."""
+    return weights._replace(kinds=(*weights.kinds[1:], kind))
+
+
+def estimate_anew(weights: Weights, settings: RollSettings, sums: Comparison) -> Weights:
+    """The weights with the estimate after a comparison with all kinds."""
+    total = sums.time.total
     # A roll of first order is declared.
-    share = measured_share(settings.time, time) / time.total
-    time_s = exp(estimate_of(settings.time, time)) * (1.0 + share * second * (SECOND_TIME - 1.0))
-    lag_s *= share
+    share = measured_share(settings.time, sums.time) / total
+    time_s = exp(estimate_of(settings.time, sums.time)) * (1.0 + share * sums.second * (SECOND_TIME - 1.0))
+    lag_s = share * sums.lag_s
     lag_s = lag_s if lag_s > NEGLIGIBLE_LAG_S else 0.0
-    roll = RollValues(time_s, exp(cautious_estimate(settings.rate, rate)), lag_s)
-    delay_s = max(estimate_of(settings.delay, Sums(time.total, index, index_square)), 0.0)
-    mean = errors / (MODELS * DELAYS)
+    roll = RollValues(time_s, exp(cautious_estimate(settings.rate, sums.rate)), lag_s)
+    mean = sums.errors / (MODELS * DELAYS)
     return weights._replace(
-        log_total=log_total + log(time.total),
-        variance_deg2=max(squares / (MODELS * DELAYS) - mean * mean, 0.0),
-        estimate=RollEstimate(roll, delay_s),
+        total=total,
+        log_total=weights.log_total + log(total),
+        variance_deg2=max(sums.squares / (MODELS * DELAYS) - mean * mean, 0.0),
+        estimate=RollEstimate(roll, max(estimate_of(settings.delay, sums.delay), 0.0)),
     )
