@@ -2,7 +2,7 @@
 --
 -- Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
 --
--- SHA-256 of the source: dbf4c37d388999cd9f47ed15745aec96ea297f71d4f865539852ae120c70ebfd
+-- SHA-256 of the source: 62fb6bb8f57dc52f09def198041d0f4da145dda7cf1f2f3775195886ae3e5da9
 --
 -- When a switch asks for it, this script flies a plane onto the holding circle around its present target in least
 -- time, and then leaves the circle to ArduPlane: loiter_entry.md. It works by GUIDED_CHANGE_HEADING in GUIDED: the target
@@ -389,6 +389,10 @@ law.NONE = {side = 0, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0}
 -- plus the averaging time. A faster correction of crosstrack errors would need an intercept angle of several
 -- degrees.
 -- PLACE_GAIN = 0.25
+
+-- There the part of a crosstrack error beyond this, radii, counts twice in calm air, so that the aircraft returns
+-- more steeply; in rough air, as for `ROUGH_HOLD`, it counts once.
+-- STEEP_OFFSET = 0.035
 
 -- The steepest intercept angle onto a path, radians: a vehicle far off turns towards the path, not all the way
 -- round.
@@ -2439,6 +2443,13 @@ function law.corrections_gain(settings, known, observer, response_s, turn_rate, 
     return gain * max(share, min(rough / 0.04--[[HEAVY_GUSTS]], 1.5--[[HEAVY_GAIN]])) / lively
 end
 
+-- The offset from the circle to correct, in air of this roughness: a large crosstrack error counts for more.
+function law.steep_offset(offset, radius_m, rough)
+    local beyond_m = offset.crosstrack - law.clip(offset.crosstrack, 0.035--[[STEEP_OFFSET]] * radius_m)
+    local calm = max(1.0 - rough / 0.02--[[ROUGH_HOLD]], 0.0)
+    return with_fields(offset, {crosstrack = offset.crosstrack + calm * beyond_m})
+end
+
 -- The rate at which the course should turn to reach a path and stay on it.
 --
 -- With the crosstrack error e, the course error b and small angles, e' = speed b, and b is driven towards
@@ -2488,7 +2499,8 @@ function law.target_bank(settings, memory, known, dt)
     local gain = law.corrections_gain(settings, known, memory.sensing.observer, response_s, V / R, holding)
     local bandwidth = 1.0 / (response_s + gain * dt)
     local place_gain = holding and 1.2--[[HOLD_GAIN]] * speed / R or 0.25--[[PLACE_GAIN]] * bandwidth
-    local course = law.course_rate(offset, gain * bandwidth, place_gain, speed)
+    local followed = holding and law.steep_offset(offset, R, law.along_roughness(memory.sensing.observer)) or offset
+    local course = law.course_rate(followed, gain * bandwidth, place_gain, speed)
     if holding then
         trim = law.next_trim(settings, trim, offset.crosstrack, gain * bandwidth, V, dt)
         course = course - trim

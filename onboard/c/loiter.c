@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 4aeed205f5ae55a913b6287dc616c8b0217ec1a3d3899bd4a50c6a7b8cb0ba44
+ * SHA-256 of the source: b4601ee96ba0b4fdb22009ad03cede68b9bc18324b84a9297005e095b8159211
  */
 #include "loiter.h"
 
@@ -829,6 +829,11 @@ static const Entry NONE = {0, 0, REAL(0.0), REAL(0.0), REAL(0.0)};
  * degrees.
  */
 #define PLACE_GAIN REAL(0.25)
+
+/* There the part of a crosstrack error beyond this, radii, counts twice in calm air, so that the aircraft returns
+ * more steeply; in rough air, as for `ROUGH_HOLD`, it counts once.
+ */
+#define STEEP_OFFSET REAL(0.035)
 
 /* The steepest intercept angle onto a path, radians: a vehicle far off turns towards the path, not all the way
  * round.
@@ -5092,6 +5097,15 @@ static inline real corrections_gain(const Settings *settings, const VehicleEstim
     return gain * max_real(share, min_real(rough / HEAVY_GUSTS, HEAVY_GAIN)) / lively;
 }
 
+/* The offset from the circle to correct, in air of this roughness: a large crosstrack error counts for more. */
+static inline PathOffset steep_offset(PathOffset offset, real radius_m, real rough) {
+    const real beyond_m = offset.crosstrack - clip(offset.crosstrack, STEEP_OFFSET * radius_m);
+    const real calm = max_real(REAL(1.0) - rough / ROUGH_HOLD, REAL(0.0));
+    PathOffset changed_1 = offset;
+    changed_1.crosstrack = offset.crosstrack + calm * beyond_m;
+    return changed_1;
+}
+
 /* The rate at which the course should turn to reach a path and stay on it.
  *
  * With the crosstrack error e, the course error b and small angles, e' = speed b, and b is driven towards
@@ -5149,7 +5163,9 @@ static inline real_2 target_bank(const Settings *settings, const Memory *memory,
     const real gain = corrections_gain(settings, known, &memory->sensing.observer, response_s, V / R, holding);
     const real bandwidth = REAL(1.0) / (response_s + gain * dt);
     const real place_gain = holding ? HOLD_GAIN * speed / R : PLACE_GAIN * bandwidth;
-    real course = course_rate(offset, gain * bandwidth, place_gain, speed);
+    const PathOffset followed = holding ? steep_offset(offset, R, along_roughness(&memory->sensing.observer)) :
+            offset;
+    real course = course_rate(followed, gain * bandwidth, place_gain, speed);
     if (holding) {
         trim = next_trim(settings, trim, offset.crosstrack, gain * bandwidth, V, dt);
         course -= trim;

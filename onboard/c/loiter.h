@@ -6,7 +6,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 4aeed205f5ae55a913b6287dc616c8b0217ec1a3d3899bd4a50c6a7b8cb0ba44
+ * SHA-256 of the source: b4601ee96ba0b4fdb22009ad03cede68b9bc18324b84a9297005e095b8159211
  */
 #ifndef LOITER_ONBOARD_H
 #define LOITER_ONBOARD_H

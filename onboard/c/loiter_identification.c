@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: e52f0e0bc959637f227294f69425cfb907cda90027052b043de142e135fc00bb
+ * SHA-256 of the source: 5920589670cb253445dfc430075fc9bd232eafddabc6d9eddbec512023f94863
  */
 #include "loiter_identification.h"
 
@@ -107,64 +107,64 @@ typedef loiter_Unknown Unknown;
 
 typedef loiter_ModelStep ModelStep;
 
-typedef loiter_ModelStep_ring_10 ModelStep_ring_10;
+typedef loiter_ModelStep_ring_8 ModelStep_ring_8;
 
-static inline ModelStep_ring_10 ModelStep_ring_10_filled(ModelStep one) {
-    ModelStep_ring_10 ring;
-    for (int i = 0; i < 10; i++) {
+static inline ModelStep_ring_8 ModelStep_ring_8_filled(ModelStep one) {
+    ModelStep_ring_8 ring;
+    for (int i = 0; i < 8; i++) {
         ring.at[i] = one;
     }
     return ring;
 }
 
-static inline ModelStep_ring_10 ModelStep_ring_10_with_last(ModelStep_ring_10 ring, ModelStep last) {
-    ring.at[9] = last;
+static inline ModelStep_ring_8 ModelStep_ring_8_with_last(ModelStep_ring_8 ring, ModelStep last) {
+    ring.at[7] = last;
     return ring;
 }
 
-static inline ModelStep_ring_10 ModelStep_ring_10_appended(ModelStep_ring_10 ring, ModelStep last) {
-    for (int i = 0; i < 9; i++) {
+static inline ModelStep_ring_8 ModelStep_ring_8_appended(ModelStep_ring_8 ring, ModelStep last) {
+    for (int i = 0; i < 7; i++) {
         ring.at[i] = ring.at[i + 1];
     }
-    ring.at[9] = last;
+    ring.at[7] = last;
     return ring;
 }
 
-static inline void ModelStep_ring_10_append(ModelStep_ring_10 *ring, ModelStep last) {
-    for (int i = 0; i < 9; i++) {
+static inline void ModelStep_ring_8_append(ModelStep_ring_8 *ring, ModelStep last) {
+    for (int i = 0; i < 7; i++) {
         ring->at[i] = ring->at[i + 1];
     }
-    ring->at[9] = last;
+    ring->at[7] = last;
 }
 
-typedef loiter_real_ring_10 real_ring_10;
+typedef loiter_real_ring_8 real_ring_8;
 
-static inline real_ring_10 real_ring_10_filled(real one) {
-    real_ring_10 ring;
-    for (int i = 0; i < 10; i++) {
+static inline real_ring_8 real_ring_8_filled(real one) {
+    real_ring_8 ring;
+    for (int i = 0; i < 8; i++) {
         ring.at[i] = one;
     }
     return ring;
 }
 
-static inline real_ring_10 real_ring_10_with_last(real_ring_10 ring, real last) {
-    ring.at[9] = last;
+static inline real_ring_8 real_ring_8_with_last(real_ring_8 ring, real last) {
+    ring.at[7] = last;
     return ring;
 }
 
-static inline real_ring_10 real_ring_10_appended(real_ring_10 ring, real last) {
-    for (int i = 0; i < 9; i++) {
+static inline real_ring_8 real_ring_8_appended(real_ring_8 ring, real last) {
+    for (int i = 0; i < 7; i++) {
         ring.at[i] = ring.at[i + 1];
     }
-    ring.at[9] = last;
+    ring.at[7] = last;
     return ring;
 }
 
-static inline void real_ring_10_append(real_ring_10 *ring, real last) {
-    for (int i = 0; i < 9; i++) {
+static inline void real_ring_8_append(real_ring_8 *ring, real last) {
+    for (int i = 0; i < 7; i++) {
         ring->at[i] = ring->at[i + 1];
     }
-    ring->at[9] = last;
+    ring->at[7] = last;
 }
 
 typedef loiter_real_ring_6 real_ring_6;
@@ -275,34 +275,34 @@ static inline void RollModel_ring_6_append(RollModel_ring_6 *ring, RollModel las
     ring->at[5] = last;
 }
 
-typedef loiter_RollModel_ring_6_ring_10 RollModel_ring_6_ring_10;
+typedef loiter_RollModel_ring_6_ring_8 RollModel_ring_6_ring_8;
 
-static inline RollModel_ring_6_ring_10 RollModel_ring_6_ring_10_filled(RollModel_ring_6 one) {
-    RollModel_ring_6_ring_10 ring;
-    for (int i = 0; i < 10; i++) {
+static inline RollModel_ring_6_ring_8 RollModel_ring_6_ring_8_filled(RollModel_ring_6 one) {
+    RollModel_ring_6_ring_8 ring;
+    for (int i = 0; i < 8; i++) {
         ring.at[i] = one;
     }
     return ring;
 }
 
-static inline RollModel_ring_6_ring_10 RollModel_ring_6_ring_10_with_last(RollModel_ring_6_ring_10 ring, RollModel_ring_6 last) {
-    ring.at[9] = last;
+static inline RollModel_ring_6_ring_8 RollModel_ring_6_ring_8_with_last(RollModel_ring_6_ring_8 ring, RollModel_ring_6 last) {
+    ring.at[7] = last;
     return ring;
 }
 
-static inline RollModel_ring_6_ring_10 RollModel_ring_6_ring_10_appended(RollModel_ring_6_ring_10 ring, RollModel_ring_6 last) {
-    for (int i = 0; i < 9; i++) {
+static inline RollModel_ring_6_ring_8 RollModel_ring_6_ring_8_appended(RollModel_ring_6_ring_8 ring, RollModel_ring_6 last) {
+    for (int i = 0; i < 7; i++) {
         ring.at[i] = ring.at[i + 1];
     }
-    ring.at[9] = last;
+    ring.at[7] = last;
     return ring;
 }
 
-static inline void RollModel_ring_6_ring_10_append(RollModel_ring_6_ring_10 *ring, RollModel_ring_6 last) {
-    for (int i = 0; i < 9; i++) {
+static inline void RollModel_ring_6_ring_8_append(RollModel_ring_6_ring_8 *ring, RollModel_ring_6 last) {
+    for (int i = 0; i < 7; i++) {
         ring->at[i] = ring->at[i + 1];
     }
-    ring->at[9] = last;
+    ring->at[7] = last;
 }
 
 typedef loiter_Models Models;
@@ -339,34 +339,34 @@ static inline void real_ring_14_ring_6_append(real_ring_14_ring_6 *ring, real_ri
 
 typedef loiter_KindWeights KindWeights;
 
-typedef loiter_KindWeights_ring_10 KindWeights_ring_10;
+typedef loiter_KindWeights_ring_8 KindWeights_ring_8;
 
-static inline KindWeights_ring_10 KindWeights_ring_10_filled(KindWeights one) {
-    KindWeights_ring_10 ring;
-    for (int i = 0; i < 10; i++) {
+static inline KindWeights_ring_8 KindWeights_ring_8_filled(KindWeights one) {
+    KindWeights_ring_8 ring;
+    for (int i = 0; i < 8; i++) {
         ring.at[i] = one;
     }
     return ring;
 }
 
-static inline KindWeights_ring_10 KindWeights_ring_10_with_last(KindWeights_ring_10 ring, KindWeights last) {
-    ring.at[9] = last;
+static inline KindWeights_ring_8 KindWeights_ring_8_with_last(KindWeights_ring_8 ring, KindWeights last) {
+    ring.at[7] = last;
     return ring;
 }
 
-static inline KindWeights_ring_10 KindWeights_ring_10_appended(KindWeights_ring_10 ring, KindWeights last) {
-    for (int i = 0; i < 9; i++) {
+static inline KindWeights_ring_8 KindWeights_ring_8_appended(KindWeights_ring_8 ring, KindWeights last) {
+    for (int i = 0; i < 7; i++) {
         ring.at[i] = ring.at[i + 1];
     }
-    ring.at[9] = last;
+    ring.at[7] = last;
     return ring;
 }
 
-static inline void KindWeights_ring_10_append(KindWeights_ring_10 *ring, KindWeights last) {
-    for (int i = 0; i < 9; i++) {
+static inline void KindWeights_ring_8_append(KindWeights_ring_8 *ring, KindWeights last) {
+    for (int i = 0; i < 7; i++) {
         ring->at[i] = ring->at[i + 1];
     }
-    ring->at[9] = last;
+    ring->at[7] = last;
 }
 
 typedef loiter_RollEstimate RollEstimate;
@@ -445,12 +445,12 @@ static const Sums NO_SUMS = {REAL(0.0), REAL(0.0), REAL(0.0)};
 #define DELAYS 14
 #define DELAY_SPREAD_S REAL(0.2)
 static const ModelStep NO_MODEL_STEP = {REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)};
-#define KINDS 10 /* TIMES + SECOND_TIMES */
+#define KINDS 8 /* TIMES + SECOND_TIMES */
 
 /* Each is of first order and, the slowest ones, of second order too, with these multiples of its time constant as
  * the time constant and the lag of its rate: as quick to 63 %, with an overshoot of 13 %.
  */
-#define SECOND_TIMES 5
+#define SECOND_TIMES 3
 
 /* A roll of first order is declared: the others have this share of the probability of the same roll of first order. */
 #define SECOND_SHARE REAL(0.5)
@@ -485,7 +485,7 @@ static const MeasuredBank NOTHING_MEASURED = {REAL(0.0), REAL(0.0), REAL(0.0)};
  * the extent that measurements count: a reversal that begins too late costs more than one that begins too early.
  */
 #define RATE_CAUTION REAL(0.8)
-#define MODELS 60 /* KINDS * RATES */
+#define MODELS 48 /* KINDS * RATES */
 static const Clock FIRST_CLOCK = {-REAL_INFINITY, REAL(0.0), REAL_INFINITY, REAL(0.0), REAL_NAN, REAL_NAN};
 static const TurnSums NO_TURNS = {REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)};
 static const RatioFit NO_PAIRS = {REAL(0.0), REAL(0.0)};
@@ -669,8 +669,8 @@ static inline RollSettings roll_settings(RollValues declared, real delay_s) {
     delay_s = min_real(delay_s, STEP_S * (real)(DELAYS - 1));
     const Unknown delay = unknown_of(delay_s, (real)(DELAYS - 1) - delay_s / STEP_S, -STEP_S, DELAY_SPREAD_S,
             DELAYS);
-    ModelStep_ring_10 kinds = ModelStep_ring_10_filled(NO_MODEL_STEP);
-    real_ring_10 kind_logs = real_ring_10_filled(REAL(0.0));
+    ModelStep_ring_8 kinds = ModelStep_ring_8_filled(NO_MODEL_STEP);
+    real_ring_8 kind_logs = real_ring_8_filled(REAL(0.0));
     real_ring_14 delay_logs = real_ring_14_filled(REAL(0.0));
     real_ring_6 limits_deg = real_ring_6_filled(REAL(0.0)), rate_logs = real_ring_6_filled(REAL(0.0));
     for (integer i = 0; i < KINDS; i++) {
@@ -679,11 +679,11 @@ static inline RollSettings roll_settings(RollValues declared, real delay_s) {
         real share = SECOND_SHARE;
         if (i < TIMES) {
             share = i >= TIMES - SECOND_TIMES ? REAL(1.0) : REAL(1.0) + SECOND_SHARE;
-            ModelStep_ring_10_append(&kinds, step_of(one_s, REAL(0.0)));
+            ModelStep_ring_8_append(&kinds, step_of(one_s, REAL(0.0)));
         } else {
-            ModelStep_ring_10_append(&kinds, step_of(SECOND_TIME * one_s, SECOND_LAG * one_s));
+            ModelStep_ring_8_append(&kinds, step_of(SECOND_TIME * one_s, SECOND_LAG * one_s));
         }
-        real_ring_10_append(&kind_logs, declared_log(&time, (real)at) + real_log(share));
+        real_ring_8_append(&kind_logs, declared_log(&time, (real)at) + real_log(share));
     }
     for (integer i = 0; i < RATES; i++) {
         real_ring_6_append(&limits_deg, STEP_S * real_exp(value_at(&rate, (real)i)));
@@ -723,7 +723,7 @@ static inline Bank model_step(ModelStep kind, real limit_deg, Bank now, real com
 
 /* The weights with those of a kind at the end, without the first ones. */
 static inline void with_next_kind(Weights *weights, const KindWeights *kind) {
-    KindWeights_ring_10_append(&weights->kinds, (*kind));
+    KindWeights_ring_8_append(&weights->kinds, (*kind));
     return;
 }
 
@@ -892,7 +892,7 @@ static inline void step_models(Models *models, const RollSettings *settings, rea
             const Bank earliest = model_step(kind, limit_deg, one.earliest, oldest_deg);
             RollModel_ring_6_append(&rolls, MAKE(RollModel){present, earliest});
         }
-        RollModel_ring_6_ring_10_append(&models->kinds, rolls);
+        RollModel_ring_6_ring_8_append(&models->kinds, rolls);
     }
     real_ring_14_append(&models->commands_deg, command_deg);
     return;
@@ -1040,7 +1040,7 @@ static inline State remove_bias(const VehicleEstimates *known, const State *stat
 /* The models at a bank that has always been this. */
 static inline Models constant_models(real bank_deg) {
     return MAKE(Models){real_ring_14_filled(bank_deg),
-            RollModel_ring_6_ring_10_filled(RollModel_ring_6_filled(MAKE(RollModel){MAKE(Bank){bank_deg, REAL(0.0)},
+            RollModel_ring_6_ring_8_filled(RollModel_ring_6_filled(MAKE(RollModel){MAKE(Bank){bank_deg, REAL(0.0)},
             MAKE(Bank){bank_deg, REAL(0.0)}}))};
 }
 

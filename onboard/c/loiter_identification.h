@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: e52f0e0bc959637f227294f69425cfb907cda90027052b043de142e135fc00bb
+ * SHA-256 of the source: 5920589670cb253445dfc430075fc9bd232eafddabc6d9eddbec512023f94863
  */
 #ifndef LOITER_IDENTIFICATION_H
 #define LOITER_IDENTIFICATION_H
@@ -17,11 +17,11 @@ extern "C" {
 /* The structures of which the state of an identification consists. No program needs to read them. */
 typedef struct { loiter_real declared, at_index, step, spread, bias, variance; } loiter_Unknown;
 typedef struct { loiter_real change, change_s, rate, rate_kept, lag_s; } loiter_ModelStep;
-typedef struct { loiter_ModelStep at[10]; } loiter_ModelStep_ring_10;
-typedef struct { loiter_real at[10]; } loiter_real_ring_10;
+typedef struct { loiter_ModelStep at[8]; } loiter_ModelStep_ring_8;
+typedef struct { loiter_real at[8]; } loiter_real_ring_8;
 typedef struct { loiter_real at[6]; } loiter_real_ring_6;
 typedef struct { loiter_real at[14]; } loiter_real_ring_14;
-typedef struct { loiter_Unknown time, rate, delay; loiter_ModelStep_ring_10 kinds; loiter_real_ring_10 kind_logs;
+typedef struct { loiter_Unknown time, rate, delay; loiter_ModelStep_ring_8 kinds; loiter_real_ring_8 kind_logs;
         loiter_real_ring_6 limits_deg; loiter_real_ring_6 rate_logs; loiter_real_ring_14 delay_logs; }
         loiter_RollSettings;
 typedef struct { loiter_VehicleEstimates declared; loiter_real wind_known_s, limit_deg; loiter_RollSettings roll; }
@@ -34,13 +34,13 @@ typedef struct { loiter_MeasuredBank measured; loiter_integer done; loiter_real 
 typedef struct { loiter_real bank_deg, rate_deg_s; } loiter_Bank;
 typedef struct { loiter_Bank present, earliest; } loiter_RollModel;
 typedef struct { loiter_RollModel at[6]; } loiter_RollModel_ring_6;
-typedef struct { loiter_RollModel_ring_6 at[10]; } loiter_RollModel_ring_6_ring_10;
-typedef struct { loiter_real_ring_14 commands_deg; loiter_RollModel_ring_6_ring_10 kinds; } loiter_Models;
+typedef struct { loiter_RollModel_ring_6 at[8]; } loiter_RollModel_ring_6_ring_8;
+typedef struct { loiter_real_ring_14 commands_deg; loiter_RollModel_ring_6_ring_8 kinds; } loiter_Models;
 typedef struct { loiter_real_ring_14 at[6]; } loiter_real_ring_14_ring_6;
 typedef struct { loiter_real_ring_14_ring_6 logs; loiter_real_ring_6 probabilities; } loiter_KindWeights;
-typedef struct { loiter_KindWeights at[10]; } loiter_KindWeights_ring_10;
+typedef struct { loiter_KindWeights at[8]; } loiter_KindWeights_ring_8;
 typedef struct { loiter_RollValues roll; loiter_real delay_s; } loiter_RollEstimate;
-typedef struct { loiter_KindWeights_ring_10 kinds; loiter_real total, log_total, variance_deg2; loiter_RollEstimate
+typedef struct { loiter_KindWeights_ring_8 kinds; loiter_real total, log_total, variance_deg2; loiter_RollEstimate
         estimate; } loiter_Weights;
 typedef struct { loiter_real bank_deg, bank_rate_deg_s, waiting_s, commanded, since_s; loiter_MeasuredBank measured;
         loiter_Comparison comparison; loiter_Models models; loiter_Weights weights; } loiter_RollMemory;

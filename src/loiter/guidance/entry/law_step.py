@@ -121,6 +121,10 @@ HEAVY_GUSTS, HEAVY_GAIN = 0.04, 1.5
 # only on the ratio of the error to the radius.
 HOLD_GAIN = 1.2
 
+# There the part of a crosstrack error beyond this, radii, counts twice in calm air, so that the aircraft returns more
+# steeply; in rough air, as for `ROUGH_HOLD`, it counts once.
+STEEP_OFFSET = 0.035
+
 # Margins, turn radii over airspeed. A different plan replaces the present one if it is faster by the first margin, the
 # same plan, made again from the present state, if it is slower by no more than the second. Sensor noise changes the
 # least time by less than these margins, except where that time jumps; there the present plan is the fastest.
@@ -893,13 +897,21 @@ def target_bank(settings: Settings, memory: Memory, known: VehicleEstimates, dt:
     gain = corrections_gain(settings, known, memory.sensing.observer, response_s, V / R, holding)
     bandwidth = 1.0 / (response_s + gain * dt)
     place_gain = HOLD_GAIN * speed / R if holding else PLACE_GAIN * bandwidth
-    course = course_rate(offset, gain * bandwidth, place_gain, speed)
+    followed = steep_offset(offset, R, along_roughness(memory.sensing.observer)) if holding else offset
+    course = course_rate(followed, gain * bandwidth, place_gain, speed)
     if holding:
         trim = next_trim(settings, trim, offset.crosstrack, gain * bandwidth, V, dt)
         course -= trim
     rate = -air_rate(course, vx, vy, state.hx, state.hy)
     # At the present airspeed, which differs from the mean one where an autopilot holds it less exactly.
     return bank_at_rate(rate / known.turn_ratio, length(state.hx, state.hy)), trim
+
+
+def steep_offset(offset: PathOffset, radius_m: float, rough: float) -> PathOffset:
+    """The offset from the circle to correct, in air of this roughness: a large crosstrack error counts for more."""
+    beyond_m = offset.crosstrack - clip(offset.crosstrack, STEEP_OFFSET * radius_m)
+    calm = max(1.0 - rough / ROUGH_HOLD, 0.0)
+    return offset._replace(crosstrack=offset.crosstrack + calm * beyond_m)
 
 
 def corrections_gain(

@@ -28,7 +28,7 @@ RATES, RATE_RATIO, DECLARED_RATE = 6, 1.45, 3
 
 # Each is of first order and, the slowest ones, of second order too, with these multiples of its time constant as the
 # time constant and the lag of its rate: as quick to 63 %, with an overshoot of 13 %.
-SECOND_TIMES, SECOND_TIME, SECOND_LAG = 5, 0.71, 0.58
+SECOND_TIMES, SECOND_TIME, SECOND_LAG = 3, 0.71, 0.58
 
 # A roll of first order is declared: the others have this share of the probability of the same roll of first order.
 SECOND_SHARE = 0.5
