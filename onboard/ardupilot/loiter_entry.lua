@@ -2,7 +2,7 @@
 --
 -- Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
 --
--- SHA-256 of the source: 62fb6bb8f57dc52f09def198041d0f4da145dda7cf1f2f3775195886ae3e5da9
+-- SHA-256 of the source: b6e537d47582d8d8f98c7292e7bb6e41d0c5ef6e51834ea11be4a92b4a14ce41
 --
 -- When a switch asks for it, this script flies a plane onto the holding circle around its present target in least
 -- time, and then leaves the circle to ArduPlane: loiter_entry.md. It works by GUIDED_CHANGE_HEADING in GUIDED: the target

@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 5920589670cb253445dfc430075fc9bd232eafddabc6d9eddbec512023f94863
+ * SHA-256 of the source: 9fb494da3a4f2dc36cc83b3efadefc27a4986731a1fa5626ff1a06e5f926767a
  */
 #include "loiter_identification.h"
 
@@ -389,6 +389,8 @@ typedef loiter_CourseLead CourseLead;
 
 typedef loiter_Turns Turns;
 
+typedef loiter_AirErrors AirErrors;
+
 typedef loiter_AirMeans AirMeans;
 
 typedef loiter_WindChange WindChange;
@@ -490,6 +492,7 @@ static const Clock FIRST_CLOCK = {-REAL_INFINITY, REAL(0.0), REAL_INFINITY, REAL
 static const TurnSums NO_TURNS = {REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)};
 static const RatioFit NO_PAIRS = {REAL(0.0), REAL(0.0)};
 static const HighPass NO_VALUE = {REAL(0.0), REAL_NAN};
+static const AirErrors NO_ERRORS = {REAL(0.0), REAL(0.0)};
 static const WindChange NO_CHANGE = {REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0025000000000000005)};
 
 /* After a longer step, seconds, the banks are those of a step of this length: it has the same effect on every
@@ -580,12 +583,14 @@ static const WindChange NO_CHANGE = {REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0),
  */
 #define WIND_MEMORY_S REAL(60.0)
 
-/* The heading bias counts, before it shows, as if it had been measured to be 0 with the first standard deviation,
- * radians, from an air velocity with errors of the second, airspeeds, that are correlated over the third, seconds.
+/* The heading bias, radians, and the share of the airspeed that is not measured count, before they show, as if they
+ * had been found to be 0, or what they were when the wind changed, with the first two standard deviations, from an
+ * air velocity with errors of the third, airspeeds, that are correlated over the fourth, seconds.
  */
 #define AIR_ERROR REAL(0.05)
-#define HEADING_BIAS_SPREAD REAL(0.06)
 #define AIR_ERROR_S REAL(4.0)
+#define HEADING_BIAS_SPREAD REAL(0.06)
+#define AIRSPEED_SPREAD REAL(0.04)
 
 /* The shortest time between two measured banks that are used, seconds. */
 #define MEASURED_S REAL(0.15)
@@ -861,8 +866,9 @@ static inline Turns first_turns(real turn_ratio, real lead_s) {
 
 /* The fit before a measurement. */
 static inline WindFit first_wind(real east_m_s, real north_m_s, real known_s) {
-    return MAKE(WindFit){east_m_s, north_m_s, REAL(0.0), known_s, MAKE(AirMeans){east_m_s, north_m_s, REAL(0.0),
-            REAL(0.0), REAL(0.0), REAL(0.0)}, NO_CHANGE};
+    const AirMeans means = MAKE(AirMeans){east_m_s, north_m_s, REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0),
+            REAL(0.0)};
+    return MAKE(WindFit){east_m_s, north_m_s, NO_ERRORS, NO_ERRORS, known_s, means, NO_CHANGE};
 }
 
 /* `NO_IDENTIFICATION`, which is given, with what is declared. */
@@ -1205,6 +1211,13 @@ static inline Turns add_turn(const Turns *turns, real declared, real declared_s,
     return MAKE(Turns){slow, quick, lead};
 }
 
+/* The velocity of the air without the errors of heading and airspeed; `right` is the airspeed to the right. */
+static inline real_2 without_errors(AirErrors errors, real east_m_s, real north_m_s, real right_east_m_s, real
+        right_north_m_s) {
+    return MAKE(real_2){east_m_s + errors.heading * right_east_m_s + errors.airspeed * right_north_m_s, north_m_s +
+            errors.heading * right_north_m_s - errors.airspeed * right_east_m_s};
+}
+
 /* The length of a vector whose square neither overflows nor underflows.
  *
  * Unlike `math.hypot`, whose algorithm is Python's own, compiled code gives the same value to the last bit.
@@ -1244,10 +1257,11 @@ static inline WindChange_bool add_difference(const WindChange *change, real east
 static inline AirMeans shift_means(const AirMeans *means, real east_m_s, real north_m_s) {
     const real east = means->east_m_s, north = means->north_m_s, right_east = means->right_east_m_s,
             right_north = means->right_north_m_s;
-    real product = means->product;
+    real right = means->right, along = means->along;
     const real square = means->square;
-    product += east_m_s * right_east + north_m_s * right_north;
-    return MAKE(AirMeans){east + east_m_s, north + north_m_s, right_east, right_north, product, square};
+    right += east_m_s * right_east + north_m_s * right_north;
+    along += north_m_s * right_east - east_m_s * right_north;
+    return MAKE(AirMeans){east + east_m_s, north + north_m_s, right_east, right_north, right, along, square};
 }
 
 /* The means, corrected by a share of their differences from the present values. */
@@ -1255,16 +1269,24 @@ static inline AirMeans update_means(const AirMeans *means, const AirMeans *now, 
     return MAKE(AirMeans){means->east_m_s + share * (now->east_m_s - means->east_m_s), means->north_m_s +
             share * (now->north_m_s - means->north_m_s), means->right_east_m_s + share *
             (now->right_east_m_s - means->right_east_m_s), means->right_north_m_s + share *
-            (now->right_north_m_s - means->right_north_m_s), means->product + share * (now->product -
-            means->product), means->square + share * (now->square - means->square)};
+            (now->right_north_m_s - means->right_north_m_s), means->right + share * (now->right -
+            means->right), means->along + share * (now->along - means->along), means->square + share *
+            (now->square - means->square)};
 }
 
-/* The heading bias, radians, by least squares; `prior` is how much a bias of 0 weighs, in (m/s)^2. */
-static inline real heading_bias(const AirMeans *means, real prior) {
+/* The errors by least squares, where the mean velocity of the air has a variance, (m/s)^2. */
+static inline AirErrors air_errors(const AirMeans *means, AirErrors expected, real variance) {
     const real east = means->east_m_s, north = means->north_m_s, right_east = means->right_east_m_s,
-            right_north = means->right_north_m_s, product = means->product, square = means->square;
+            right_north = means->right_north_m_s;
+    real right = means->right, along = means->along;
+    const real square = means->square;
     const real spread = square - right_east * right_east - right_north * right_north;
-    return -(product - east * right_east - north * right_north) / (spread + prior);
+    const real of_heading = variance / (HEADING_BIAS_SPREAD * HEADING_BIAS_SPREAD);
+    const real of_airspeed = variance / (AIRSPEED_SPREAD * AIRSPEED_SPREAD);
+    right = right - east * right_east - north * right_north;
+    along = along - north * right_east + east * right_north;
+    return MAKE(AirErrors){(of_heading * expected.heading - right) / (spread + of_heading), (of_airspeed *
+            expected.airspeed + along) / (spread + of_airspeed)};
 }
 
 /* The fit with a state whose heading was corrected by `removed_deg`; the flight is `off` radians to its right. */
@@ -1278,35 +1300,36 @@ static inline WindFit add_air_velocity(const WindFit *wind, const State *state, 
     const real right_east = V * s, right_north = -V * c;
     const real east = state->velocity_east_m_s - V * c, north = state->velocity_north_m_s - V * s;
     real wind_east = wind->east_m_s, wind_north = wind->north_m_s;
-    const real bias_deg = wind->heading_bias_deg;
+    AirErrors errors = wind->errors, expected = wind->expected;
     real known_s = wind->known_s;
     AirMeans means = wind->means;
     WindChange change = wind->change;
-    real bias;
     if (known_s > REAL(0.0)) {
-        bias = bias_deg * REAL(0.017453292519943295);
-        const real off_east = east + bias * right_east - wind_east, off_north = north + bias * right_north -
-                wind_north;
-        const WindChange_bool add_difference_2 = add_difference(&change, off_east, off_north, V, dt);
-        change = add_difference_2.a0;
-        const bool has_changed = add_difference_2.a1;
+        const real_2 without_errors_2 = without_errors(errors, east, north, right_east, right_north);
+        const real true_east = without_errors_2.a0, true_north = without_errors_2.a1;
+        const WindChange_bool add_difference_3 = add_difference(&change, true_east - wind_east, true_north -
+                wind_north, V, dt);
+        change = add_difference_3.a0;
+        const bool has_changed = add_difference_3.a1;
         if (has_changed) {
             means = shift_means(&means, change.mean_east_m_s, change.mean_north_m_s);
             known_s = CHANGED_S;
+            expected = errors;
         }
         if (change.since_s > REAL(0.0)) {
-            return MAKE(WindFit){wind_east, wind_north, bias_deg, known_s, means, change};
+            return MAKE(WindFit){wind_east, wind_north, errors, expected, known_s, means, change};
         }
     }
     known_s = min_real(known_s + dt, WIND_MEMORY_S);
-    const AirMeans stored_3 = MAKE(AirMeans){east, north, right_east, right_north, right_east * east + right_north *
-            north, V * V};
-    means = update_means(&means, &stored_3, min_real(dt / known_s, REAL(1.0)));
-    const real prior = AIR_ERROR * V / HEADING_BIAS_SPREAD;
-    bias = heading_bias(&means, prior * prior * AIR_ERROR_S / known_s);
-    wind_east = means.east_m_s + bias * means.right_east_m_s;
-    wind_north = means.north_m_s + bias * means.right_north_m_s;
-    return MAKE(WindFit){wind_east, wind_north, bias * REAL(57.29577951308232), known_s, means, change};
+    const real right = right_east * east + right_north * north, along = right_east * north - right_north * east;
+    const AirMeans stored_4 = MAKE(AirMeans){east, north, right_east, right_north, right, along, V * V};
+    means = update_means(&means, &stored_4, min_real(dt / known_s, REAL(1.0)));
+    errors = air_errors(&means, expected, AIR_ERROR * AIR_ERROR * V * V * AIR_ERROR_S / known_s);
+    const real_2 without_errors_5 = without_errors(errors, means.east_m_s, means.north_m_s, means.right_east_m_s,
+            means.right_north_m_s);
+    wind_east = without_errors_5.a0;
+    wind_north = without_errors_5.a1;
+    return MAKE(WindFit){wind_east, wind_north, errors, expected, known_s, means, change};
 }
 
 /* The memory with a measured bank that has just arrived; it is compared with the models at their next step. */
@@ -1380,7 +1403,8 @@ static inline void update_fits(Identification *memory, const IdentificationSetti
     const VehicleEstimates estimates = MAKE(VehicleEstimates){memory->roll.weights.estimate.roll,
             memory->roll.weights.estimate.delay_s, slow.ratio, quick.ratio, lead.lead_s, wind.east_m_s,
             wind.north_m_s, airspeeds.always.value, airspeeds.in_turns.value, overshoot.overshoot_deg,
-            DECLARED_TURN_AIRSPEED_S / airspeeds.in_turns.known_s, wind.heading_bias_deg, slow.bank_bias_deg};
+            DECLARED_TURN_AIRSPEED_S / airspeeds.in_turns.known_s, wind.errors.heading * REAL(57.29577951308232),
+            slow.bank_bias_deg};
     memory->revision = memory->revision + 1;
     memory->turns = turns;
     memory->wind = wind;

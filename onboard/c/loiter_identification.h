@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 5920589670cb253445dfc430075fc9bd232eafddabc6d9eddbec512023f94863
+ * SHA-256 of the source: 9fb494da3a4f2dc36cc83b3efadefc27a4986731a1fa5626ff1a06e5f926767a
  */
 #ifndef LOITER_IDENTIFICATION_H
 #define LOITER_IDENTIFICATION_H
@@ -53,12 +53,13 @@ typedef struct { loiter_real ratio; loiter_RatioFit fit; loiter_real last_deg, l
         computed_deg; loiter_HighPass measured_mean, computed_mean; } loiter_QuickTurns;
 typedef struct { loiter_real lead_s; loiter_RatioFit fit; loiter_HighPass angle, rate; } loiter_CourseLead;
 typedef struct { loiter_SlowTurns slow; loiter_QuickTurns quick; loiter_CourseLead lead; } loiter_Turns;
-typedef struct { loiter_real east_m_s, north_m_s, right_east_m_s, right_north_m_s, product, square; }
+typedef struct { loiter_real heading, airspeed; } loiter_AirErrors;
+typedef struct { loiter_real east_m_s, north_m_s, right_east_m_s, right_north_m_s, right, along, square; }
         loiter_AirMeans;
 typedef struct { loiter_real since_s, mean_east_m_s, mean_north_m_s, swift_east_m_s, swift_north_m_s, usual_square;
         } loiter_WindChange;
-typedef struct { loiter_real east_m_s, north_m_s, heading_bias_deg, known_s; loiter_AirMeans means;
-        loiter_WindChange change; } loiter_WindFit;
+typedef struct { loiter_real east_m_s, north_m_s; loiter_AirErrors errors, expected; loiter_real known_s;
+        loiter_AirMeans means; loiter_WindChange change; } loiter_WindFit;
 typedef struct { loiter_real value, known_s; } loiter_Average;
 typedef struct { loiter_Average always, in_turns; } loiter_Airspeeds;
 typedef struct { loiter_real overshoot_deg; bool has_begun; } loiter_Overshoot;

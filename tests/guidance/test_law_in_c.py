@@ -162,4 +162,4 @@ def test_the_law_in_c_gives_the_commands_of_python(library, i, identify):
 
 def test_the_memories_in_c_fit_a_microcontroller():
     assert sizeof(TYPES[Memory]) < 7500
-    assert sizeof(TYPES[Identification]) < 10_000
+    assert sizeof(TYPES[Identification]) < 8500
