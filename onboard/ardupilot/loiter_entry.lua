@@ -2,7 +2,7 @@
 --
 -- Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
 --
--- SHA-256 of the source: b6e537d47582d8d8f98c7292e7bb6e41d0c5ef6e51834ea11be4a92b4a14ce41
+-- SHA-256 of the source: 17f0e7219d18609f1b0a7a289bb17d8306d8e677ce42480ed7d5af70a57b6027
 --
 -- When a switch asks for it, this script flies a plane onto the holding circle around its present target in least
 -- time, and then leaves the circle to ArduPlane: loiter_entry.md. It works by GUIDED_CHANGE_HEADING in GUIDED: the target
@@ -214,6 +214,9 @@ law.LAGUERRE_WEIGHTS = {0.711093009929173, 0.27851773356924087, 0.01038925650158
 
 -- These last for the change at the limit of the roll rate, and for so many time constants more.
 -- SETTLING = 1.5
+
+-- For fewer lags of the bank rate its effect is a series, of which the first term that is left out is 1.4e-6 here.
+-- SHORT_LAGS = 0.1
 
 -- The reserve grows by this share for each radian that the aircraft could turn during the delay of its roll: the
 -- slower the roll, the farther an error of its estimate takes the aircraft off the last arc.
@@ -697,7 +700,9 @@ function law.roll_after(roll, now, command_deg, time_s)
     local kept = exp(-time_s / roll.lag_s)
     local wanted_deg_s = (command_deg - now.bank_deg - 0.5 * time_s * now.rate_deg_s) / roll.time_s
     local rate_deg_s = law.clip(wanted_deg_s + kept * (now.rate_deg_s - wanted_deg_s), roll.rate_deg_s)
-    local share = roll.lag_s / time_s - kept / (1.0 - kept)
+    local lags = time_s / roll.lag_s
+    -- The difference of large numbers for a short time, of which this is the series.
+    local share = lags < 0.1--[[SHORT_LAGS]] and 0.5 - lags / 12.0 or 1.0 / lags - kept / (1.0 - kept)
     return {bank_deg = now.bank_deg + time_s * (rate_deg_s + share * (now.rate_deg_s - rate_deg_s)), rate_deg_s =
             rate_deg_s}
 end

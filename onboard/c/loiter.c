@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: b4601ee96ba0b4fdb22009ad03cede68b9bc18324b84a9297005e095b8159211
+ * SHA-256 of the source: 7208faadd417f2905cb4482475178bd8d0f1bbdd5986b4f3c69414bc64670f2a
  */
 #include "loiter.h"
 
@@ -651,6 +651,9 @@ static const real_3 LAGUERRE_WEIGHTS = {REAL(0.711093009929173), REAL(0.27851773
 
 /* These last for the change at the limit of the roll rate, and for so many time constants more. */
 #define SETTLING REAL(1.5)
+
+/* For fewer lags of the bank rate its effect is a series, of which the first term that is left out is 1.4e-6 here. */
+#define SHORT_LAGS REAL(0.1)
 
 /* The reserve grows by this share for each radian that the aircraft could turn during the delay of its roll: the
  * slower the roll, the farther an error of its estimate takes the aircraft off the last arc.
@@ -3716,7 +3719,10 @@ static inline Bank roll_after(RollValues roll, Bank now, real command_deg, real 
     const real kept = real_exp(-time_s / roll.lag_s);
     const real wanted_deg_s = (command_deg - now.bank_deg - REAL(0.5) * time_s * now.rate_deg_s) / roll.time_s;
     const real rate_deg_s = clip(wanted_deg_s + kept * (now.rate_deg_s - wanted_deg_s), roll.rate_deg_s);
-    const real share = roll.lag_s / time_s - kept / (REAL(1.0) - kept);
+    const real lags = time_s / roll.lag_s;
+    /* The difference of large numbers for a short time, of which this is the series. */
+    const real share = lags < SHORT_LAGS ? REAL(0.5) - lags / REAL(12.0) : REAL(1.0) / lags - kept / (REAL(1.0) -
+            kept);
     return MAKE(Bank){now.bank_deg + time_s * (rate_deg_s + share * (now.rate_deg_s - rate_deg_s)), rate_deg_s};
 }
 

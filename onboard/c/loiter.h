@@ -6,7 +6,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: b4601ee96ba0b4fdb22009ad03cede68b9bc18324b84a9297005e095b8159211
+ * SHA-256 of the source: 7208faadd417f2905cb4482475178bd8d0f1bbdd5986b4f3c69414bc64670f2a
  */
 #ifndef LOITER_ONBOARD_H
 #define LOITER_ONBOARD_H

@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 9fb494da3a4f2dc36cc83b3efadefc27a4986731a1fa5626ff1a06e5f926767a
+ * SHA-256 of the source: 7ff82bafc87b21805cdfa61918c604779f3240b3c8c682999a6f668a822dc8ef
  */
 #include "loiter_identification.h"
 
@@ -500,6 +500,9 @@ static const WindChange NO_CHANGE = {REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0),
  */
 #define LONGEST_STEP_S REAL(20.0)
 
+/* For fewer lags of the bank rate its effect is a series, of which the first term that is left out is 1.4e-6 here. */
+#define SHORT_LAGS REAL(0.1)
+
 /* The largest plausible time stamp, seconds: 32,000 years, where a double still resolves a tenth of a millisecond. */
 #define LATEST_S REAL(1000000000000.0)
 
@@ -947,7 +950,10 @@ static inline Bank roll_after(RollValues roll, Bank now, real command_deg, real 
     const real kept = real_exp(-time_s / roll.lag_s);
     const real wanted_deg_s = (command_deg - now.bank_deg - REAL(0.5) * time_s * now.rate_deg_s) / roll.time_s;
     const real rate_deg_s = clip(wanted_deg_s + kept * (now.rate_deg_s - wanted_deg_s), roll.rate_deg_s);
-    const real share = roll.lag_s / time_s - kept / (REAL(1.0) - kept);
+    const real lags = time_s / roll.lag_s;
+    /* The difference of large numbers for a short time, of which this is the series. */
+    const real share = lags < SHORT_LAGS ? REAL(0.5) - lags / REAL(12.0) : REAL(1.0) / lags - kept / (REAL(1.0) -
+            kept);
     return MAKE(Bank){now.bank_deg + time_s * (rate_deg_s + share * (now.rate_deg_s - rate_deg_s)), rate_deg_s};
 }
 

@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 9fb494da3a4f2dc36cc83b3efadefc27a4986731a1fa5626ff1a06e5f926767a
+ * SHA-256 of the source: 7ff82bafc87b21805cdfa61918c604779f3240b3c8c682999a6f668a822dc8ef
  */
 #ifndef LOITER_IDENTIFICATION_H
 #define LOITER_IDENTIFICATION_H

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from loiter.errors import InvalidArgument
 from loiter.guidance.vehicle.limits import clip
-from loiter.guidance.vehicle.rolling import INSTANT_ROLL, Bank, Roll, RollValues, demand_deg, turn_delay
+from loiter.guidance.vehicle.rolling import INSTANT_ROLL, Bank, Roll, RollValues, demand_deg, roll_after, turn_delay
 
 LIMIT_DEG = 35.0
 rolls = st.builds(Roll, st.floats(0.05, 2.0), st.sampled_from([15.0, 60.0, 300.0, inf]))
@@ -128,3 +128,17 @@ def test_a_demand_stays_within_the_limit_and_points_to_the_target(roll, bank, ta
 def test_an_impossible_response_is_refused(time, rate):
     with pytest.raises(InvalidArgument, match=r"^roll (time_s|rate_deg_s) is "):
         Roll(time, rate)
+
+
+@pytest.mark.parametrize("time_s", [1e-300, 1e-18, 1e-9, 1e-4, 0.0299, 0.0301])
+def test_a_bank_whose_rate_has_a_lag_goes_on_however_short_a_step_is(time_s):
+    """A step of 7e-18 s was a division by zero, and a bank that is no number in C; also against 1,000 small steps."""
+    roll, now = RollValues(0.5, 1e3, 0.3), Bank(5.0, 20.0)
+    found, dt, bank_deg, rate_deg_s = roll_after(roll, now, 30.0, time_s), time_s / 1000, 5.0, 20.0
+    for _ in range(1000):
+        bank_deg, rate_deg_s = (
+            bank_deg + dt * rate_deg_s,
+            rate_deg_s + dt * ((30.0 - bank_deg) / 0.5 - rate_deg_s) / 0.3,
+        )
+    assert found.bank_deg == pytest.approx(bank_deg, abs=5e-3)
+    assert found.rate_deg_s == pytest.approx(rate_deg_s, abs=0.1)

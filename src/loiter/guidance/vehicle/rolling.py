@@ -16,6 +16,9 @@ COMMAND_GAIN, QUICKEST_S = 2.5, 0.15
 # The damping of a bank whose rate has a lag, under these commands.
 DAMPING = 0.8
 
+# For fewer lags of the bank rate its effect is a series, of which the first term that is left out is 1.4e-6 here.
+SHORT_LAGS = 0.1
+
 # The largest number of steps in which a change of a bank whose rate has a lag is flown.
 STEPS = 24
 
@@ -153,7 +156,9 @@ def roll_after(roll: RollValues, now: Bank, command_deg: float, time_s: float) -
     kept = exp(-time_s / roll.lag_s)
     wanted_deg_s = (command_deg - now.bank_deg - 0.5 * time_s * now.rate_deg_s) / roll.time_s
     rate_deg_s = clip(wanted_deg_s + kept * (now.rate_deg_s - wanted_deg_s), roll.rate_deg_s)
-    share = roll.lag_s / time_s - kept / (1.0 - kept)
+    lags = time_s / roll.lag_s
+    # The difference of large numbers for a short time, of which this is the series.
+    share = 0.5 - lags / 12.0 if lags < SHORT_LAGS else 1.0 / lags - kept / (1.0 - kept)
     return Bank(now.bank_deg + time_s * (rate_deg_s + share * (now.rate_deg_s - rate_deg_s)), rate_deg_s)
 
 
