@@ -2,7 +2,7 @@
 --
 -- Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
 --
--- SHA-256 of the source: 17f0e7219d18609f1b0a7a289bb17d8306d8e677ce42480ed7d5af70a57b6027
+-- SHA-256 of the source: 5111a2add64a6f66f07d9ab0f6c6ebfd03ae2d8028544dff1d070ef0ce201047
 --
 -- When a switch asks for it, this script flies a plane onto the holding circle around its present target in least
 -- time, and then leaves the circle to ArduPlane: loiter_entry.md. It works by GUIDED_CHANGE_HEADING in GUIDED: the target
@@ -28,6 +28,12 @@ local DELAY_S, ROLL_TIME_S, ROLL_RATE_DEG_S = 0.2, 0.1, 90.0
 -- number, are forgotten over the third, seconds; the declared delay counts as this much of them for each second squared
 -- by which another one is off.
 local MOST_STEPS, LARGEST_ERROR_DEG2, DELAY_MEMORY_S, DELAY_WEIGHT = 10, 100.0, 20.0, 2000.0
+
+-- The first roll of a flight shows the delay where the bank has stayed within this many degrees for so many steps before.
+local STEADY_DEG = 5.0
+
+-- Until there is a plan the bank of the beginning is kept, for so many milliseconds at most.
+local FIRST_PLAN_MS = 500
 
 -- The largest bank ever commanded, and how far below the limit of the autopilot it stays, degrees.
 local LARGEST_BANK_DEG, BELOW_LIMIT_DEG = 60.0, 0.5
@@ -247,7 +253,7 @@ law.NO_PLAN = {route = {side = 0, current = {u = -2, x = 0.0, y = 0.0, c = 1.0, 
 -- ABSENT = -2
 law.NO_LEADS = {bank = -1000000000, rate = 0, current = 0, next = 0, last = 0, current_s = 0.0, more = 0.0, next_s = 0.0, last_s = 0.0}
 law.NO_RESPONSE = {state = {time_s = 0.0, x = 0.0, y = 0.0, vx = 0.0, vy = 0.0, hx = 0.0, hy = 0.0}, offset = {crosstrack = 0.0, course_error = 0.0, path_rate = 0.0}, early_s = 0.0}
-law.NO_ENTRY_SEARCH = {aim = 0, state = {time_s = 0.0, x = 0.0, y = 0.0, vx = 0.0, vy = 0.0, hx = 0.0, hy = 0.0}, turns = {airspeed_m_s = 1.0, tightest_m = 1.0, planned_m = 1.0}, wind_east_m_s = 0.0, wind_north_m_s = 0.0, radius_m = 1.0, wide_m = 1.0, side = 0, reversing = false, is_second = false, is_begun = false, in_air = {stage = 0, sides = 0, one = 1, scene = {x = 0.0, y = 0.0, c = 1.0, s = 0.0, R = 1.0, wx = 0.0, wy = 0.0, arc_tolerance = 0.0}, best = {phase = 0.0, side = 0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}}, beside = {entry = {side = 0, word = 0, t1 = huge, t2 = 0.0, t3 = 0.0}, phase = 0.0, miss = huge}, visit = {number = 0, level = 0, words = 63}, before = {number = -2, point = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}}, leaves = {first = 0, second = 0, third = 0, fourth = 0}, others = {first = 0, second = 0, third = 0, fourth = 0}, corner = {phase = 0.0, u = 0, t1 = 0.0, t2 = 0.0}, compared = huge, visits = 0, refinement = {stage = 0, side = 0, width = 0.0, here = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}, other = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}, last = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}, words = 0, bisect = false, steps = 0, enclosures = 0}, cell = {words = 0, earliest = 0.0, tolerance = 0.0}, left = 0, entry = {status = 12, side = 0, word = 0, t1 = (0.0 / 0.0), t2 = (0.0 / 0.0), t3 = (0.0 / 0.0), azimuth = (0.0 / 0.0), miss = (0.0 / 0.0)}}}
+law.NO_ENTRY_SEARCH = {aim = 0, state = {time_s = 0.0, x = 0.0, y = 0.0, vx = 0.0, vy = 0.0, hx = 0.0, hy = 0.0}, turns = {airspeed_m_s = 1.0, tightest_m = 1.0, planned_m = 1.0}, wind_east_m_s = 0.0, wind_north_m_s = 0.0, radius_m = 1.0, wide_m = 1.0, side = 0, reversing = false, is_second = false, is_begun = false, in_air = {stage = 0, sides = 0, side = 1, scene = {x = 0.0, y = 0.0, c = 1.0, s = 0.0, R = 1.0, wx = 0.0, wy = 0.0, arc_tolerance = 0.0}, best = {phase = 0.0, side = 0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}}, beside = {entry = {side = 0, word = 0, t1 = huge, t2 = 0.0, t3 = 0.0}, phase = 0.0, miss = huge}, visit = {number = 0, level = 0, words = 63}, before = {number = -2, point = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}}, leaves = {first = 0, second = 0, third = 0, fourth = 0}, others = {first = 0, second = 0, third = 0, fourth = 0}, corner = {phase = 0.0, u = 0, t1 = 0.0, t2 = 0.0}, compared = huge, visits = 0, refinement = {stage = 0, side = 0, width = 0.0, here = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}, other = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}, last = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}, words = 0, bisect = false, steps = 0, enclosures = 0}, cell = {words = 0, earliest = 0.0, tolerance = 0.0}, left = 0, entry = {status = 12, side = 0, word = 0, t1 = (0.0 / 0.0), t2 = (0.0 / 0.0), t3 = (0.0 / 0.0), azimuth = (0.0 / 0.0), miss = (0.0 / 0.0)}}}
 
 -- What a command does: the control that it flies, +1 to the left; or one of these.
 -- NO_DATA = 3
@@ -348,7 +354,7 @@ law.NO_PIECE = {u = -2, x = 0.0, y = 0.0, c = 1.0, s = 0.0, end_x = 0.0, end_y =
 -- rounding error of c - end x itself is negligible.
 -- SMALLEST_SCALE = 1.4551915228366852e-11 -- 2.0 ** (-300)
 law.NO_ROTATION = {0.0, 1.0}
-law.NO_SEARCH = {stage = 0, sides = 0, one = 1, scene = {x = 0.0, y = 0.0, c = 1.0, s = 0.0, R = 1.0, wx = 0.0, wy = 0.0, arc_tolerance = 0.0}, best = {phase = 0.0, side = 0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}}, beside = {entry = {side = 0, word = 0, t1 = huge, t2 = 0.0, t3 = 0.0}, phase = 0.0, miss = huge}, visit = {number = 0, level = 0, words = 63}, before = {number = -2, point = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}}, leaves = {first = 0, second = 0, third = 0, fourth = 0}, others = {first = 0, second = 0, third = 0, fourth = 0}, corner = {phase = 0.0, u = 0, t1 = 0.0, t2 = 0.0}, compared = huge, visits = 0, refinement = {stage = 0, side = 0, width = 0.0, here = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}, other = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}, last = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}, words = 0, bisect = false, steps = 0, enclosures = 0}, cell = {words = 0, earliest = 0.0, tolerance = 0.0}, left = 0, entry = {status = 12, side = 0, word = 0, t1 = (0.0 / 0.0), t2 = (0.0 / 0.0), t3 = (0.0 / 0.0), azimuth = (0.0 / 0.0), miss = (0.0 / 0.0)}}
+law.NO_SEARCH = {stage = 0, sides = 0, side = 1, scene = {x = 0.0, y = 0.0, c = 1.0, s = 0.0, R = 1.0, wx = 0.0, wy = 0.0, arc_tolerance = 0.0}, best = {phase = 0.0, side = 0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}}, beside = {entry = {side = 0, word = 0, t1 = huge, t2 = 0.0, t3 = 0.0}, phase = 0.0, miss = huge}, visit = {number = 0, level = 0, words = 63}, before = {number = -2, point = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}}, leaves = {first = 0, second = 0, third = 0, fourth = 0}, others = {first = 0, second = 0, third = 0, fourth = 0}, corner = {phase = 0.0, u = 0, t1 = 0.0, t2 = 0.0}, compared = huge, visits = 0, refinement = {stage = 0, side = 0, width = 0.0, here = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}, other = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}, last = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}, words = 0, bisect = false, steps = 0, enclosures = 0}, cell = {words = 0, earliest = 0.0, tolerance = 0.0}, left = 0, entry = {status = 12, side = 0, word = 0, t1 = (0.0 / 0.0), t2 = (0.0 / 0.0), t3 = (0.0 / 0.0), azimuth = (0.0 / 0.0), miss = (0.0 / 0.0)}}
 
 -- The stages of a search: on each side, first some points, then cells down to the leaves, then the leaves that are
 -- left.
@@ -3220,6 +3226,27 @@ local function measure_airspeed(now, mode)
     mean_airspeed.value = mean_airspeed.value + share * (equivalent_m_s - mean_airspeed.value)
 end
 
+-- The bank before a flight, and since when it has been steady.
+local steady = {bank_deg = 0.0, since_ms = nil}
+
+local function watch_bank(now)
+    if steady.since_ms == nil or math.abs(now.bank_deg - steady.bank_deg) > STEADY_DEG then
+        steady = {bank_deg = now.bank_deg, since_ms = now.now_ms}
+    end
+end
+
+-- The modelled banks before a flight, the last one first; none where the bank was not steady.
+local function banks_before(now)
+    local banks = {}
+    if (now.now_ms - steady.since_ms):toint() >= MOST_STEPS * PERIOD_MS then
+        for k = 1, MOST_STEPS do
+            banks[k] = now.bank_deg
+        end
+    end
+    steady.since_ms = nil
+    return banks
+end
+
 -- The errors of the modelled bank for each delay, and the delay that follows from them; one flight learns from another.
 local delay_errors, delay_s = {}, DELAY_S
 for k = 0, MOST_STEPS do
@@ -3486,7 +3513,7 @@ local function begin(now)
     local _, state = nil, relative(now)
     flight.ratio, flight.begun_ms, flight.command_deg = now.ratio, now.now_ms, now.bank_deg
     -- The bank has changed since the flight was prepared.
-    flight.model.bank_deg, flight.banks = now.bank_deg, {}
+    flight.model.bank_deg, flight.banks = now.bank_deg, banks_before(now)
     -- The nearer side, until the law has a plan.
     local cross = state.east_m * now.velocity_north_m_s - state.north_m * now.velocity_east_m_s
     flight.side = flight.settings.side ~= 0 and flight.settings.side or cross < 0.0 and 1 or -1
@@ -3533,7 +3560,7 @@ local function guide(now)
     local memory = law.prepare(flight.memory, flight.settings, flight.model, state)
     flight.memory = law.conclude(memory, flight.settings, flight.model, PERIOD_MS * 0.001)
     local command = flight.memory.command
-    -- Until there is a plan, the circle by ArduPlane's own guidance goes on.
+    local limit_deg, bank_deg = flight.settings.limit_deg, flight.command_deg
     if command.phase ~= 3 or flight.is_commanded then
         flight.command_deg, flight.side, flight.is_commanded = command.bank_deg, command.side, true
         if is_held(now, state) then
@@ -3541,12 +3568,17 @@ local function guide(now)
             return
         end
         -- On the circle with the bias that the law takes from measured banks: ArduPlane flies the bank that it measures.
-        local bias_deg = command.phase == 2 and turns.slow.bank_bias_deg or 0.0
-        local limit_deg = flight.settings.limit_deg
-        if not command_bank(now, math.max(-limit_deg, math.min(flight.command_deg + bias_deg, limit_deg))) then
-            finish(SEVERITY.WARNING, "bank refused", false)
-            return
+        bank_deg = command.bank_deg + (command.phase == 2 and turns.slow.bank_bias_deg or 0.0)
+    elseif (now.now_ms - flight.begun_ms):toint() >= FIRST_PLAN_MS then
+        -- The circle by ArduPlane's own guidance, until there is a plan.
+        if not flight.is_left then
+            flight.is_left = reposition() == ACCEPTED
         end
+        bank_deg = nil
+    end
+    if bank_deg and not command_bank(now, math.max(-limit_deg, math.min(bank_deg, limit_deg))) then
+        finish(SEVERITY.WARNING, "bank refused", false)
+        return
     end
     flight.beat = (flight.beat or 0) % 1000 + 1
     BEAT:set(flight.side * flight.beat)
@@ -3563,6 +3595,7 @@ local function wait(now)
         return
     end
     measure_turns(now)
+    watch_bank(now)
     if flight and is_current(now) then
         if is_high and not is_latched then
             begin(now)

@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 7208faadd417f2905cb4482475178bd8d0f1bbdd5986b4f3c69414bc64670f2a
+ * SHA-256 of the source: e46209685a344166dd927d300dbeacfb6cf705dd5a02c0259339ec25be6c6d0e
  */
 #include "loiter.h"
 
@@ -63,6 +63,11 @@ typedef uint64_t unsigned_integer;
 #else
 #define APART
 #endif
+
+/* Whether a step may be so long, seconds. */
+static inline bool is_step(real dt_s) {
+    return dt_s > REAL(0.0) && dt_s <= (real)LOITER_LONGEST_STEP_S;
+}
 
 typedef loiter_Rings Rings;
 
@@ -588,6 +593,9 @@ static const WindCandidate NO_CANDIDATE = {REAL(0.0), 0, {REAL_INFINITY, 0, REAL
 #else
 #define WIND_TIE_TOLERANCE REAL(1e-12)
 #endif
+
+/* The arc of the circle that is held for `hold_tolerance`. */
+#define UNKNOWN_ARC REAL(0.0015339807878856412) /* TWO_PI / 4096.0 */
 
 /* In cells within this many half widths of the end of the best path, bounds around that end are tried too. */
 #define NEAR_BEST REAL(8.0)
@@ -1885,11 +1893,11 @@ static inline WindSearch begin_search(const WindProblem *problem) {
             return search;
         }
     }
-    const integer each_one_1[2] = {1, -1};
+    const integer each_side_1[2] = {1, -1};
     for (int i_1 = 0; i_1 < 2; i_1++) {
-        const integer one = each_one_1[i_1];
-        if (problem->side != -one && is_on_circle(one, &scene)) {
-            search.best = start_on_circle(one, &scene);
+        const integer side = each_side_1[i_1];
+        if (problem->side != -side && is_on_circle(side, &scene)) {
+            search.best = start_on_circle(side, &scene);
         }
     }
     if (search.best.side != 0) {
@@ -2481,13 +2489,13 @@ static inline CellVisit next_leaf(integer leaf) {
 
 /* The search at the beginning of its next stage, on the other side; the result after the last one. */
 static inline void next_stage(WindSearch *search) {
-    const integer stage = search->stage + 1, one = -search->one;
+    const integer stage = search->stage + 1, side = -search->side;
     if (stage == ENDED) {
         end_search(search);
         return;
     }
     CellVisit visit = FIRST_CELL;
-    if (stage > COARSE_OTHER || search->sides == -one) {
+    if (stage > COARSE_OTHER || search->sides == -side) {
         const integer first = search->others.first, second = search->others.second, third =
                 search->others.third, fourth = search->others.fourth;
         visit = next_leaf((((first | second) | third) | fourth) != 0 ? -1 : shift_left(FIRST_CELLS, LEAF));
@@ -2495,7 +2503,7 @@ static inline void next_stage(WindSearch *search) {
     const Leaves new_1 = search->others;
     const Leaves new_2 = search->leaves;
     search->stage = stage;
-    search->one = one;
+    search->side = side;
     search->visit = visit;
     search->before = NO_LEAF_END;
     search->leaves = new_1;
@@ -2558,7 +2566,7 @@ static inline void refine_path(WindSearch *search) {
     if (search->stage == JOINING) {
         /* The better side is searched first, which shortens the search on the other side. */
         search->best = found;
-        search->one = found.side != 0 ? -found.side : -1;
+        search->side = found.side != 0 ? -found.side : -1;
         if (found.path.time > REAL(0.0)) {
             next_stage(search);
             return;
@@ -2594,14 +2602,14 @@ static inline WindCandidate best_of_joins(integer side, const WindScene *scene, 
 static inline void join_one_side(WindSearch *search) {
     WindCandidate best = search->best;
     const WindScene scene = search->scene;
-    const integer one = search->one;
-    if (search->sides != -one) {
-        best = best_of_joins(one, &scene, best);
+    const integer side = search->side;
+    if (search->sides != -side) {
+        best = best_of_joins(side, &scene, best);
     }
-    const Refinement refinement = one == 1 ? NO_REFINEMENT : begin_refinement(&best, TWO_PI / (real)JOINS, &scene);
+    const Refinement refinement = side == 1 ? NO_REFINEMENT : begin_refinement(&best, TWO_PI / (real)JOINS, &scene);
     const integer new_1 = search->left - 1;
     search->best = best;
-    search->one = -one;
+    search->side = -side;
     search->left = new_1;
     search->refinement = refinement;
     return;
@@ -3160,7 +3168,7 @@ static inline Leaves with_leaf(Leaves leaves, integer number) {
  * Cells are visited in the order of their phases, and halved as long as a word may join inside them early enough.
  */
 static inline void coarse_search(WindSearch *search) {
-    const integer one = search->one;
+    const integer side = search->side;
     const WindScene scene = search->scene;
     const WindCandidate best = search->best;
     CellVisit visit = search->visit;
@@ -3171,10 +3179,10 @@ static inline void coarse_search(WindSearch *search) {
     while (left > 0 && start.path.time == REAL_INFINITY && visit.number < shift_left(FIRST_CELLS, visit.level)) {
         left -= 1;
         const real_2 middle_of_1 = middle_of(visit);
-        integer words = words_inside(middle_of_1.a0, middle_of_1.a1, (visit.words & ALL_WORDS), one, &scene,
+        integer words = words_inside(middle_of_1.a0, middle_of_1.a1, (visit.words & ALL_WORDS), side, &scene,
                 best.path.time);
         if (words != 0 && visit.level >= COARSE) {
-            const integer_LeafEnd_JoinPoint examine_cell_2 = examine_cell(visit, words, one, &scene, &before,
+            const integer_LeafEnd_JoinPoint examine_cell_2 = examine_cell(visit, words, side, &scene, &before,
                     &best);
             words = examine_cell_2.a0;
             before = examine_cell_2.a1;
@@ -3191,7 +3199,7 @@ static inline void coarse_search(WindSearch *search) {
     search->leaves = leaves;
     search->left = left;
     if (start.path.time < REAL_INFINITY) {
-        search->refinement = refinement_from(&start, one, TWO_PI / (real)shift_left(FIRST_CELLS, LEAF));
+        search->refinement = refinement_from(&start, side, TWO_PI / (real)shift_left(FIRST_CELLS, LEAF));
         return;
     }
     if (visit.number < shift_left(FIRST_CELLS, visit.level)) {
@@ -3214,9 +3222,9 @@ static inline real time_tolerance(const WindCandidate *best, const WindScene *sc
     return WIND_TIE_TOLERANCE * (REAL(1.0) + scene->R + best->path.time);
 }
 
-/* The tolerance after `MOST_VISITS` cells: an upper bound on the time to hold the circle through 2 pi/4096. */
+/* The tolerance after `MOST_VISITS` cells: an upper bound on the time to hold the circle through `UNKNOWN_ARC`. */
 static inline real hold_tolerance(const WindScene *scene) {
-    return scene->R / (REAL(1.0) - length(scene->wx, scene->wy)) * (TWO_PI / REAL(4096.0));
+    return scene->R / (REAL(1.0) - length(scene->wx, scene->wy)) * UNKNOWN_ARC;
 }
 
 /* The two arcs of which the best path consists, up to rounding; `NO_CORNER` for another path. */
@@ -3425,7 +3433,7 @@ static inline real_WindCandidate compare_at_end(CellVisit visit, integer side, c
 
 /* The search after cells inside the leaves of one side that are left, until a path has to be refined. */
 static inline void fine_search(WindSearch *search) {
-    const integer one = search->one;
+    const integer side = search->side;
     const WindScene scene = search->scene;
     const WindCandidate best = search->best;
     const Leaves leaves = search->leaves;
@@ -3445,9 +3453,9 @@ static inline void fine_search(WindSearch *search) {
         const real tolerance = visits <= MOST_VISITS ? time_tolerance(&best, &scene) : hold_tolerance(&scene);
         const real sooner = best.path.time - tolerance;
         const real_2 middle_of_1 = middle_of(visit);
-        integer words = words_inside(middle_of_1.a0, middle_of_1.a1, (visit.words & ALL_WORDS), one, &scene,
+        integer words = words_inside(middle_of_1.a0, middle_of_1.a1, (visit.words & ALL_WORDS), side, &scene,
                 sooner);
-        if (words != 0 && one == best.side) {
+        if (words != 0 && side == best.side) {
             if (best.path.time < compared) {
                 corner = corner_of(&best, &scene);
                 compared = best.path.time;
@@ -3455,7 +3463,7 @@ static inline void fine_search(WindSearch *search) {
             words = words_beside_best(visit, words, &scene, &best, corner, sooner);
         }
         if (words != 0 && integer_modulo(LAST - visit.level, 2) == 0 && visit.level > LEAF) {
-            const real_WindCandidate compare_at_end_2 = compare_at_end(visit, one, &scene, &best);
+            const real_WindCandidate compare_at_end_2 = compare_at_end(visit, side, &scene, &best);
             const real earliest = compare_at_end_2.a0;
             start = compare_at_end_2.a1;
             cell = MAKE(OpenCell){words, earliest, tolerance};
@@ -5463,7 +5471,7 @@ static void step_with(loiter_law *law, const loiter_measurement *m, real dt_s, l
 
 int loiter_law_step_known(loiter_law *law, const loiter_measurement *measurement, loiter_real dt_s,
                           loiter_command *command) {
-    if (!(dt_s > REAL(0.0) && dt_s <= (real)LOITER_LONGEST_STEP_S)) {
+    if (!is_step(dt_s)) {
         return LOITER_BAD_STEP;
     }
     step_with(law, measurement, dt_s, command);
@@ -5471,7 +5479,7 @@ int loiter_law_step_known(loiter_law *law, const loiter_measurement *measurement
 }
 
 int loiter_law_step(loiter_law *law, const loiter_measurement *measurement, loiter_real dt_s, loiter_command *command) {
-    if (dt_s > REAL(0.0) && dt_s <= (real)LOITER_LONGEST_STEP_S) {
+    if (is_step(dt_s)) {
         law->vehicle = fly_as_declared(&law->vehicle, law->memory.command.bank_deg, law->memory.step_s);
     }
     return loiter_law_step_known(law, measurement, dt_s, command);

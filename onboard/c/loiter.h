@@ -6,7 +6,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 7208faadd417f2905cb4482475178bd8d0f1bbdd5986b4f3c69414bc64670f2a
+ * SHA-256 of the source: e46209685a344166dd927d300dbeacfb6cf705dd5a02c0259339ec25be6c6d0e
  */
 #ifndef LOITER_ONBOARD_H
 #define LOITER_ONBOARD_H
@@ -126,7 +126,7 @@ typedef struct { loiter_integer stage, side; loiter_real width; loiter_JoinPoint
         words; bool bisect; loiter_integer steps, enclosures; } loiter_Refinement;
 typedef struct { loiter_integer words; loiter_real earliest, tolerance; } loiter_OpenCell;
 typedef struct { loiter_integer status, side, word; loiter_real t1, t2, t3, azimuth, miss; } loiter_WindEntry;
-typedef struct { loiter_integer stage, sides, one; loiter_WindScene scene; loiter_WindCandidate best;
+typedef struct { loiter_integer stage, sides, side; loiter_WindScene scene; loiter_WindCandidate best;
         loiter_EntryBeside beside; loiter_CellVisit visit; loiter_LeafEnd before; loiter_Leaves leaves, others;
         loiter_Corner corner; loiter_real compared; loiter_integer visits; loiter_Refinement refinement;
         loiter_OpenCell cell; loiter_integer left; loiter_WindEntry entry; } loiter_WindSearch;

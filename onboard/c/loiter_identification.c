@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 7ff82bafc87b21805cdfa61918c604779f3240b3c8c682999a6f668a822dc8ef
+ * SHA-256 of the source: 64e65803e2a26b655d5cd1b2832f8a766a149924ff8d8d9f40f5dc9631679b0a
  */
 #include "loiter_identification.h"
 
@@ -63,6 +63,11 @@ typedef uint64_t unsigned_integer;
 #else
 #define APART
 #endif
+
+/* Whether a step may be so long, seconds. */
+static inline bool is_step(real dt_s) {
+    return dt_s > REAL(0.0) && dt_s <= (real)LOITER_LONGEST_STEP_S;
+}
 
 #if defined(__GNUC__) || defined(__clang__)
 #define LOITER_ALWAYS_INLINE __attribute__((always_inline))
@@ -1489,7 +1494,7 @@ static void follow_clock(loiter_identification *identification, uint32_t time_us
 
 int loiter_law_step_identified(loiter_law *law, loiter_identification *identification, const loiter_measurement *m,
                                loiter_real dt_s, loiter_command *command) {
-    if (!(dt_s > REAL(0.0) && dt_s <= (real)LOITER_LONGEST_STEP_S)) {
+    if (!is_step(dt_s)) {
         return LOITER_BAD_STEP;
     }
     Identification *const memory = &identification->memory;

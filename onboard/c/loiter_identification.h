@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 7ff82bafc87b21805cdfa61918c604779f3240b3c8c682999a6f668a822dc8ef
+ * SHA-256 of the source: 64e65803e2a26b655d5cd1b2832f8a766a149924ff8d8d9f40f5dc9631679b0a
  */
 #ifndef LOITER_IDENTIFICATION_H
 #define LOITER_IDENTIFICATION_H
