@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 64e65803e2a26b655d5cd1b2832f8a766a149924ff8d8d9f40f5dc9631679b0a
+ * SHA-256 of the source: 56405d5a9c757e77d122276ecf6ac8229c5ff48f360bcdd6580b0d4c49095937
  */
 #include "loiter_identification.h"
 
@@ -488,6 +488,11 @@ static const MeasuredBank NOTHING_MEASURED = {REAL(0.0), REAL(0.0), REAL(0.0)};
 /* A shorter lag of the bank rate, seconds, counts as none. */
 #define NEGLIGIBLE_LAG_S REAL(0.01)
 
+/* A smaller variance of an index counts as that: it is the difference of nearly equal sums, and its root would turn
+ * their last digits, which differ between languages, into 1e-7 of a bank.
+ */
+#define NEGLIGIBLE_VARIANCE REAL(1e-06)
+
 /* The estimate of the rate limit is lower than its mean by this multiple of the standard deviation that is left, to
  * the extent that measurements count: a reversal that begins too late costs more than one that begins too early.
  */
@@ -800,7 +805,7 @@ static inline real estimate_of(const Unknown *unknown, Sums sums) {
 
 /* `estimate_of`, lower by `RATE_CAUTION` standard deviations; what is declared is believed until measured. */
 static inline real cautious_estimate(const Unknown *unknown, Sums sums) {
-    const real deviation = unknown->step * real_sqrt(max_real(variance_of(sums), REAL(0.0)));
+    const real deviation = unknown->step * real_sqrt(max_real(variance_of(sums), NEGLIGIBLE_VARIANCE));
     return estimate_of(unknown, sums) - RATE_CAUTION * measured_share(unknown, sums) * deviation;
 }
 

@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 64e65803e2a26b655d5cd1b2832f8a766a149924ff8d8d9f40f5dc9631679b0a
+ * SHA-256 of the source: 56405d5a9c757e77d122276ecf6ac8229c5ff48f360bcdd6580b0d4c49095937
  */
 #ifndef LOITER_IDENTIFICATION_H
 #define LOITER_IDENTIFICATION_H

@@ -56,6 +56,10 @@ SPREAD, DELAY_SPREAD_S = 0.7, 0.2
 # extent that measurements count: a reversal that begins too late costs more than one that begins too early.
 RATE_CAUTION = 0.8
 
+# A smaller variance of an index counts as that: it is the difference of nearly equal sums, and its root would turn
+# their last digits, which differ between languages, into 1e-7 of a bank.
+NEGLIGIBLE_VARIANCE = 1e-6
+
 # Prediction errors have this standard deviation, degrees, and are correlated over this time, seconds; larger ones than
 # `LARGEST_ERROR_DEG` count as that.
 ERROR_DEG, CORRELATION_S, LARGEST_ERROR_DEG = 1.4, 0.2, 10.0
@@ -334,7 +338,7 @@ def measured_share(unknown: Unknown, sums: Sums) -> float:
 
 def cautious_estimate(unknown: Unknown, sums: Sums) -> float:
     """`estimate_of`, lower by `RATE_CAUTION` standard deviations; what is declared is believed until measured."""
-    deviation = unknown.step * sqrt(max(variance_of(sums), 0.0))
+    deviation = unknown.step * sqrt(max(variance_of(sums), NEGLIGIBLE_VARIANCE))
     return estimate_of(unknown, sums) - RATE_CAUTION * measured_share(unknown, sums) * deviation
 
 
