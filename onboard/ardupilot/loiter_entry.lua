@@ -2,7 +2,7 @@
 --
 -- Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
 --
--- SHA-256 of the source: 5111a2add64a6f66f07d9ab0f6c6ebfd03ae2d8028544dff1d070ef0ce201047
+-- SHA-256 of the source: a46583c96a842439e5f841e1c26f6ed6af3c4aacc13556f4e5886176baaf50c2
 --
 -- When a switch asks for it, this script flies a plane onto the holding circle around its present target in least
 -- time, and then leaves the circle to ArduPlane: loiter_entry.md. It works by GUIDED_CHANGE_HEADING in GUIDED: the target
@@ -1812,25 +1812,37 @@ function law.two_product(a, b)
     return p, ah * bh - p + ah * bl + al * bh + al * bl
 end
 
--- The difference of squares x^2 + (y - R) (y + R + k), with nearly full relative accuracy even near zero.
+-- The squared distances rp^2 - (R + 1)^2, rm^2 - (R - 1)^2 and rp^2 - (R - 3)^2 beyond three circles.
 --
--- With k = 2 it is rp^2 - (R + 1)^2: the squared distance from (0, -1) less the squared radius of the last circle
--- of L. With k = -2 it is rm^2 - (R - 1)^2, the same for R about (0, 1). Near zero it is a small difference of
--- large numbers, and T varies with its square root: in plain doubles T would lose half of its digits there.
-function law.beyond(x, y, R, k)
-    local s, es = law.two_sum(y, -R)
-    local t, et = law.two_sum(y, R)
+-- They are `beyond` with R and 2, R and -2, 2 - R and 2. The last is the sum u + d + low, with an error of third
+-- order only: at R = 1 + 2e-14 there are doubles next to (-sqrt(3), 0) where it is 8e-32, and where T would lose
+-- 1e-9 for the terms that `beyond` leaves out. The others differ from it by -8 (R - 1) and -4 (y + R - 2); for them
+-- an error of second order is enough, since next to their circles a single arc replaces the words that depend on
+-- them.
+function law.beyond_circles(x, y, R)
+    local s, es = law.two_sum(y, R - 2.0)
+    local t, et = law.two_sum(y, 2.0 - R)
     local ek
-    t, ek = law.two_sum(t, k)
+    t, ek = law.two_sum(t, 2.0)
+    local e, ee = law.two_sum(et, ek)
     local p, ep = law.two_product(s, t)
     local q, eq = law.two_product(x, x)
+    local v, ev = law.two_product(s, e)
+    local w, ew = law.two_product(t, es)
     local u, eu = law.two_sum(q, p)
-    return u + (eu + (ep + eq + s * (et + ek) + t * es))
+    local a, ea = law.two_sum(ep, eq)
+    local b, eb = law.two_sum(v, w)
+    local c, ec = law.two_sum(a, b)
+    local d, ed = law.two_sum(eu, c)
+    local low = es * e + s * ee + (ev + ew + (ea + eb + (ec + ed)))
+    local f, ef = law.two_sum(u, -8.0 * (R - 1.0))
+    local g, eg = law.two_sum(u, -4.0 * s)
+    return f + (ef + d), g + (eg + d - 4.0 * es), u + d + low
 end
 
 -- The start at a reduced state.
 function law.start_at(x, y, R, arc_tolerance)
-    local outer, inner, fold = law.beyond(x, y, R, 2.0), law.beyond(x, y, R, -2.0), law.beyond(x, y, 2.0 - R, 2.0)
+    local outer, inner, fold = law.beyond_circles(x, y, R)
     return {x = x, y = y, R = R, arc_tolerance = arc_tolerance, outer = outer, inner = inner, fold = fold}
 end
 
@@ -1865,8 +1877,8 @@ end
 
 -- LSL: onto the axis at (-c, 0), straight to (-X, 0), X = sqrt(R (R + 2)), left for acos(1/(R + 1)).
 --
--- `y` is the ordinate of the start, with the opposite sign for RSL. `joins` says whether c >= X, decided by
--- `exact.beyond` as in the selection of words; rounding may still make c - X negative.
+-- `y` is the ordinate of the start, with the opposite sign for RSL. `joins` says whether c >= X, decided as in the
+-- selection of words; rounding may still make c - X negative.
 function law.external_join(word, y, start, joins)
     local R = start.R
     local first, c = law.onto_axis(start.x, y, -1.0, start.arc_tolerance)
@@ -1994,9 +2006,9 @@ function law.lrl(start)
     return {word = 55--[[Word.LRL]], first = first, straight = exists and 0.0 or huge, middle = middle, last = last}
 end
 
--- Left, straight, right, from inside a circle of R >= 2: rp <= R - 1.
+-- Left, straight, right, from inside a circle of R >= 2: rp <= R - 1, that is rp^2 - (R - 3)^2 <= 4 (R - 2).
 function law.lsr(start)
-    return law.internal_join(27--[[Word.LSR]], start.y, start, law.beyond(start.x, start.y, -start.R, 2.0) <= 0.0)
+    return law.internal_join(27--[[Word.LSR]], start.y, start, start.fold <= 4.0 * (start.R - 2.0))
 end
 
 -- Whether an extremal ends at the target.

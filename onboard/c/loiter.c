@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: e46209685a344166dd927d300dbeacfb6cf705dd5a02c0259339ec25be6c6d0e
+ * SHA-256 of the source: 38dccc599eee12171584c1ce99474125abadd0b4525a7fefd010f03f3c74c897
  */
 #include "loiter.h"
 
@@ -138,9 +138,9 @@ typedef struct { real a0; Extremal a1; } real_Extremal;
  */
 typedef struct { real x, y, R, arc_tolerance, outer, inner, fold; } Start;
 
-typedef struct { real_2 a0; real a1; } real_2_real;
-
 typedef struct { real a0, a1, a2; } real_3;
+
+typedef struct { real_2 a0; real a1; } real_2_real;
 
 typedef struct { integer a0; real a1, a2, a3; } integer_real_3;
 
@@ -920,34 +920,55 @@ static inline real_2 two_product(real a, real b) {
     return MAKE(real_2){p, ah * bh - p + ah * bl + al * bh + al * bl};
 }
 
-/* The difference of squares x^2 + (y - R) (y + R + k), with nearly full relative accuracy even near zero.
+/* The squared distances rp^2 - (R + 1)^2, rm^2 - (R - 1)^2 and rp^2 - (R - 3)^2 beyond three circles.
  *
- * With k = 2 it is rp^2 - (R + 1)^2: the squared distance from (0, -1) less the squared radius of the last circle
- * of L. With k = -2 it is rm^2 - (R - 1)^2, the same for R about (0, 1). Near zero it is a small difference of
- * large numbers, and T varies with its square root: in plain doubles T would lose half of its digits there.
+ * They are `beyond` with R and 2, R and -2, 2 - R and 2. The last is the sum u + d + low, with an error of third
+ * order only: at R = 1 + 2e-14 there are doubles next to (-sqrt(3), 0) where it is 8e-32, and where T would lose
+ * 1e-9 for the terms that `beyond` leaves out. The others differ from it by -8 (R - 1) and -4 (y + R - 2); for them
+ * an error of second order is enough, since next to their circles a single arc replaces the words that depend on
+ * them.
  */
-static inline real beyond(real x, real y, real R, real k) {
-    const real_2 two_sum_1 = two_sum(y, -R);
+static inline real_3 beyond_circles(real x, real y, real R) {
+    const real_2 two_sum_1 = two_sum(y, R - REAL(2.0));
     const real s = two_sum_1.a0, es = two_sum_1.a1;
-    const real_2 two_sum_2 = two_sum(y, R);
+    const real_2 two_sum_2 = two_sum(y, REAL(2.0) - R);
     real t = two_sum_2.a0;
     const real et = two_sum_2.a1;
-    const real_2 two_sum_3 = two_sum(t, k);
+    const real_2 two_sum_3 = two_sum(t, REAL(2.0));
     t = two_sum_3.a0;
     const real ek = two_sum_3.a1;
-    const real_2 two_product_4 = two_product(s, t);
-    const real p = two_product_4.a0, ep = two_product_4.a1;
-    const real_2 two_product_5 = two_product(x, x);
-    const real q = two_product_5.a0, eq = two_product_5.a1;
-    const real_2 two_sum_6 = two_sum(q, p);
-    const real u = two_sum_6.a0, eu = two_sum_6.a1;
-    return u + (eu + (ep + eq + s * (et + ek) + t * es));
+    const real_2 two_sum_4 = two_sum(et, ek);
+    const real e = two_sum_4.a0, ee = two_sum_4.a1;
+    const real_2 two_product_5 = two_product(s, t);
+    const real p = two_product_5.a0, ep = two_product_5.a1;
+    const real_2 two_product_6 = two_product(x, x);
+    const real q = two_product_6.a0, eq = two_product_6.a1;
+    const real_2 two_product_7 = two_product(s, e);
+    const real v = two_product_7.a0, ev = two_product_7.a1;
+    const real_2 two_product_8 = two_product(t, es);
+    const real w = two_product_8.a0, ew = two_product_8.a1;
+    const real_2 two_sum_9 = two_sum(q, p);
+    const real u = two_sum_9.a0, eu = two_sum_9.a1;
+    const real_2 two_sum_10 = two_sum(ep, eq);
+    const real a = two_sum_10.a0, ea = two_sum_10.a1;
+    const real_2 two_sum_11 = two_sum(v, w);
+    const real b = two_sum_11.a0, eb = two_sum_11.a1;
+    const real_2 two_sum_12 = two_sum(a, b);
+    const real c = two_sum_12.a0, ec = two_sum_12.a1;
+    const real_2 two_sum_13 = two_sum(eu, c);
+    const real d = two_sum_13.a0, ed = two_sum_13.a1;
+    const real low = es * e + s * ee + (ev + ew + (ea + eb + (ec + ed)));
+    const real_2 two_sum_14 = two_sum(u, -REAL(8.0) * (R - REAL(1.0)));
+    const real f = two_sum_14.a0, ef = two_sum_14.a1;
+    const real_2 two_sum_15 = two_sum(u, -REAL(4.0) * s);
+    const real g = two_sum_15.a0, eg = two_sum_15.a1;
+    return MAKE(real_3){f + (ef + d), g + (eg + d - REAL(4.0) * es), u + d + low};
 }
 
 /* The start at a reduced state. */
 static inline Start start_at(real x, real y, real R, real arc_tolerance) {
-    const real outer = beyond(x, y, R, REAL(2.0)), inner = beyond(x, y, R, -REAL(2.0)), fold = beyond(x, y,
-            REAL(2.0) - R, REAL(2.0));
+    const real_3 beyond_circles_1 = beyond_circles(x, y, R);
+    const real outer = beyond_circles_1.a0, inner = beyond_circles_1.a1, fold = beyond_circles_1.a2;
     return MAKE(Start){x, y, R, arc_tolerance, outer, inner, fold};
 }
 
@@ -985,8 +1006,8 @@ static inline real_2_real onto_axis(real x, real y, real end_, real arc_toleranc
 
 /* LSL: onto the axis at (-c, 0), straight to (-X, 0), X = sqrt(R (R + 2)), left for acos(1/(R + 1)).
  *
- * `y` is the ordinate of the start, with the opposite sign for RSL. `joins` says whether c >= X, decided by
- * `exact.beyond` as in the selection of words; rounding may still make c - X negative.
+ * `y` is the ordinate of the start, with the opposite sign for RSL. `joins` says whether c >= X, decided as in the
+ * selection of words; rounding may still make c - X negative.
  */
 static inline Extremal external_join(integer word, real y, const Start *start, bool joins) {
     const real R = start->R;
@@ -1137,10 +1158,9 @@ static inline Extremal lrl(const Start *start) {
     return MAKE(Extremal){WORD_LRL, first, exists ? REAL(0.0) : REAL_INFINITY, middle, last};
 }
 
-/* Left, straight, right, from inside a circle of R >= 2: rp <= R - 1. */
+/* Left, straight, right, from inside a circle of R >= 2: rp <= R - 1, that is rp^2 - (R - 3)^2 <= 4 (R - 2). */
 static inline Extremal lsr(const Start *start) {
-    return internal_join(WORD_LSR, start->y, start, beyond(start->x, start->y, -start->R, REAL(2.0)) <=
-            REAL(0.0));
+    return internal_join(WORD_LSR, start->y, start, start->fold <= REAL(4.0) * (start->R - REAL(2.0)));
 }
 
 /* Whether an extremal ends at the target. */

@@ -6,7 +6,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: e46209685a344166dd927d300dbeacfb6cf705dd5a02c0259339ec25be6c6d0e
+ * SHA-256 of the source: 38dccc599eee12171584c1ce99474125abadd0b4525a7fefd010f03f3c74c897
  */
 #ifndef LOITER_ONBOARD_H
 #define LOITER_ONBOARD_H
