@@ -335,8 +335,8 @@ class Certificate(Answer):
     They are necessary. `proved_optimal` says that the maneuver is proved to be optimal, up to rounding: it is valid, in
     still air, without a tolerance; `basis` names the theorem, or says what is missing. For rounding the path ends
     within `delta_m` metres of the point of joining and takes at most `epsilon_s` seconds longer than the least time;
-    both are null where that is not proved, and `rounding` names the theorem, or says why not. `lambda` and `psi` are
-    null where the aircraft is on the circle already.
+    both are null where no theorem covers the state, and `rounding` names the theorem, or says why not. `lambda` and
+    `psi` are null where the aircraft is on the circle already.
     """
 
     valid: bool
