@@ -15,8 +15,8 @@ Qed.
 Lemma atan_nonneg v : 0 <= v -> 0 <= atan v.
 Proof. intros nonneg. rewrite <- atan_0. destruct nonneg as [lt|<-]; [left; apply atan_increasing, lt|apply Rle_refl]. Qed.
 
-(** On the circle of radius 1 about the origin, along its tangent, clockwise. *)
-Definition on_clockwise_circle (X Y th : R) : Prop := X = - sin th /\ Y = cos th.
+(** On the circle of radius [rho] about the origin, along its tangent, clockwise. *)
+Definition on_clockwise_circle (rho X Y th : R) : Prop := X = - (rho * sin th) /\ Y = rho * cos th.
 
 (** The least time to [(0, 1)] from any reduced state. *)
 Definition least_time_clockwise (x y : R) : R :=
@@ -377,7 +377,7 @@ Qed.
 Theorem least_time_clockwise_is_flown X0 Y0 th0 :
   exists X Y th u, flight X Y th u (least_time_clockwise (along X0 Y0 th0) (across X0 Y0 th0))
     /\ X 0 = X0 /\ Y 0 = Y0 /\ th 0 = th0
-    /\ let T := least_time_clockwise (along X0 Y0 th0) (across X0 Y0 th0) in on_clockwise_circle (X T) (Y T) (th T).
+    /\ let T := least_time_clockwise (along X0 Y0 th0) (across X0 Y0 th0) in on_clockwise_circle 1 (X T) (Y T) (th T).
 Proof.
   set (x0 := along X0 Y0 th0). set (y0 := across X0 Y0 th0).
   destruct (from_reduced X0 Y0 th0) as [backX backY]. fold x0 y0 in backX, backY.
@@ -389,10 +389,10 @@ Qed.
 
 (** No flight onto the clockwise circle takes less. *)
 Theorem least_time_clockwise_is_least X0 Y0 th0 X Y th u T :
-  flight X Y th u T -> X 0 = X0 -> Y 0 = Y0 -> th 0 = th0 -> on_clockwise_circle (X T) (Y T) (th T) ->
+  flight X Y th u T -> X 0 = X0 -> Y 0 = Y0 -> th 0 = th0 -> on_clockwise_circle 1 (X T) (Y T) (th T) ->
   least_time_clockwise (along X0 Y0 th0) (across X0 Y0 th0) <= T.
 Proof.
-  intros fl <- <- <- [endX endY].
+  intros fl <- <- <- [endX endY]. rewrite Rmult_1_l in endX, endY.
   pose proof (reduced _ _ _ _ _ fl) as tr.
   assert (tx : along (X T) (Y T) (th T) = 0) by (unfold along; rewrite endX, endY; ring).
   assert (ty : across (X T) (Y T) (th T) = 1).

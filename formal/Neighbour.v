@@ -2,7 +2,7 @@
 
 Require Import Reals Lra.
 From Coquelicot Require Import Coquelicot.
-From Loiter Require Import Motion Value Synthesis Clockwise.
+From Loiter Require Import Motion Value Synthesis Clockwise Wider WiderMargin.
 Open Scope R_scope.
 
 (** The flight moved as a whole, without turning it. *)
@@ -58,14 +58,14 @@ End Neighbour.
 (** A flight that ends at a distance of at most [delta] from a point at which, with its last heading, it would be on the
     circle takes no less than [least_time] of some reduced state that is no farther from its own. *)
 Theorem least_time_of_a_neighbour X Y th u T delta Xc Yc :
-  flight X Y th u T -> on_circle Xc Yc (th T) -> distance_sq (X T) (Y T) Xc Yc <= delta * delta ->
+  flight X Y th u T -> on_circle 1 Xc Yc (th T) -> distance_sq (X T) (Y T) Xc Yc <= delta * delta ->
   exists x y,
     distance_sq (along (X 0) (Y 0) (th 0)) (across (X 0) (Y 0) (th 0)) x y <= delta * delta /\ least_time x y <= T.
 Proof. apply neighbour, least_time_is_least. Qed.
 
 (** The same clockwise. *)
 Theorem least_time_clockwise_of_a_neighbour X Y th u T delta Xc Yc :
-  flight X Y th u T -> on_clockwise_circle Xc Yc (th T) -> distance_sq (X T) (Y T) Xc Yc <= delta * delta ->
+  flight X Y th u T -> on_clockwise_circle 1 Xc Yc (th T) -> distance_sq (X T) (Y T) Xc Yc <= delta * delta ->
   exists x y,
     distance_sq (along (X 0) (Y 0) (th 0)) (across (X 0) (Y 0) (th 0)) x y <= delta * delta
     /\ least_time_clockwise x y <= T.
@@ -74,6 +74,7 @@ Proof. apply neighbour, least_time_clockwise_is_least. Qed.
 (** * What all this rests on *)
 
 Definition theorems := (least_time_is_flown, least_time_is_least, least_time_of_a_neighbour,
-  least_time_clockwise_is_flown, least_time_clockwise_is_least, least_time_clockwise_of_a_neighbour).
+  least_time_clockwise_is_flown, least_time_clockwise_is_least, least_time_clockwise_of_a_neighbour,
+  word_is_flown, least_of_words_is_least, least_of_words_is_flown, least_of_words_is_flown_either, straight_margin).
 
 Print Assumptions theorems.

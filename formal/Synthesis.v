@@ -20,9 +20,9 @@ Record flight (X Y th u : R -> R) (T : R) : Prop := {
   th_moves : forall t, 0 <= t < T -> right_derive th t (u t)
 }.
 
-(** On the circle of radius 1 about the origin, along its tangent, clockwise or counter-clockwise. *)
-Definition on_circle (X Y th : R) : Prop :=
-  (X = - sin th /\ Y = cos th) \/ (X = sin th /\ Y = - cos th).
+(** On the circle of radius [rho] about the origin, along its tangent, clockwise or counter-clockwise. *)
+Definition on_circle (rho X Y th : R) : Prop :=
+  (X = - (rho * sin th) /\ Y = rho * cos th) \/ (X = rho * sin th /\ Y = - (rho * cos th)).
 
 (** * Reduction *)
 
@@ -177,7 +177,7 @@ Qed.
 Theorem least_time_is_flown X0 Y0 th0 :
   exists X Y th u, flight X Y th u (least_time (along X0 Y0 th0) (across X0 Y0 th0))
     /\ X 0 = X0 /\ Y 0 = Y0 /\ th 0 = th0
-    /\ let T := least_time (along X0 Y0 th0) (across X0 Y0 th0) in on_circle (X T) (Y T) (th T).
+    /\ let T := least_time (along X0 Y0 th0) (across X0 Y0 th0) in on_circle 1 (X T) (Y T) (th T).
 Proof.
   destruct (from_reduced X0 Y0 th0) as [backX backY].
   set (x0 := along X0 Y0 th0) in *. set (y0 := across X0 Y0 th0) in *.
@@ -194,11 +194,11 @@ Qed.
 
 (** No flight onto the circle takes less. *)
 Theorem least_time_is_least X0 Y0 th0 X Y th u T :
-  flight X Y th u T -> X 0 = X0 -> Y 0 = Y0 -> th 0 = th0 -> on_circle (X T) (Y T) (th T) ->
+  flight X Y th u T -> X 0 = X0 -> Y 0 = Y0 -> th 0 = th0 -> on_circle 1 (X T) (Y T) (th T) ->
   least_time (along X0 Y0 th0) (across X0 Y0 th0) <= T.
 Proof.
   intros fl <- <- <- ends. destruct (reflected _ _ _ _ (reduced _ _ _ _ _ fl)) as [v tr].
-  unfold least_time.
+  unfold on_circle in ends. rewrite !Rmult_1_l in ends. unfold least_time.
   apply (not_sooner_up _ _ v T tr); [intros; apply Rabs_pos| |]; simpl; unfold along, across;
     pose proof (sin2_cos2 (th T)) as one; unfold Rsqr in one.
   - destruct ends as [[-> ->]|[-> ->]]; ring.

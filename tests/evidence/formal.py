@@ -13,7 +13,7 @@ import tempfile
 from pathlib import Path
 
 FOLDER = Path(__file__).parents[2] / "formal"
-TOKEN = re.compile(r"\s*(:=|[A-Za-z_]\w*|\d+|[-+*/()])")
+TOKEN = re.compile(r"\s*(:=|<=|/\\|[A-Za-z_]\w*|\d+|[-+*/()<])")
 
 # A file, a text in it, and what stands there in the mutant: each makes a statement false.
 MUTANTS = [
@@ -27,26 +27,33 @@ MUTANTS = [
         "turn_bounded : forall t, 0 <= t < T -> -1 <= u t",
         "turn_bounded : forall t, 0 <= t < T -> -2 <= u t",
     ),
-    ("Synthesis.v", "  (X = - sin th /\\ Y = cos th) \\/", "  (X * X + Y * Y = 1) \\/"),
+    ("Synthesis.v", "  (X = - (rho * sin th) /\\ Y = rho * cos th) \\/", "  (X * X + Y * Y = rho * rho) \\/"),
     (
         "Neighbour.v",
-        "flight X Y th u T -> on_circle Xc Yc (th T) -> distance_sq (X T) (Y T) Xc Yc <= delta * delta ->",
-        "flight X Y th u T -> on_circle Xc Yc (th T) -> distance_sq (X T) (Y T) Xc Yc <= delta ->",
+        "flight X Y th u T -> on_circle 1 Xc Yc (th T) -> distance_sq (X T) (Y T) Xc Yc <= delta * delta ->",
+        "flight X Y th u T -> on_circle 1 Xc Yc (th T) -> distance_sq (X T) (Y T) Xc Yc <= delta ->",
     ),
     ("Below.v", "R := 3 * PI / 2 - lower_angle x y + 3", "R := 3 * PI / 2 - lower_angle x y + 2"),
     ("Below.v", "R := 5 * PI / 2 - lower_angle", "R := 2 * PI - lower_angle"),
     ("BelowBound.v", "Rmin right_first (time_lrl x y) else", "right_first else"),
     ("Clockwise.v", "else if Rle_dec 4 (outer_sq x y)", "else if Rle_dec 3 (outer_sq x y)"),
-    ("Clockwise.v", ": Prop := X = - sin th /\\ Y = cos th.", ": Prop := X * X + Y * Y = 1."),
+    ("Clockwise.v", ": Prop := X = - (rho * sin th) /\\ Y = rho * cos th.", ": Prop := X * X + Y * Y = rho * rho."),
+    ("Wider.v", "then 2 * PI - acos (d / r) else", "then acos (d / r) else"),
+    ("Wider.v", "left_turn x y (- c) 0 + (c - X) + left_turn", "left_turn x y (- c) 0 + c + left_turn"),
+    ("Wider.v", "let y1 := rho - q / 4 in\n  right_turn", "let y1 := rho - q / 3 in\n  right_turn"),
+    ("Wider.v", "  1 < rho /\\ (rho - 3) * (rho - 3) <= outer_sq x y", "  1 < rho /\\ 0 <= outer_sq x y"),
+    ("Wider.v", "rho <= 3 /\\ outer_sq x y <= (3 - rho)", "rho <= 3 /\\ outer_sq x y <= (4 - rho)"),
+    ("Wider.v", "list word := [LSL; RSL; LSR; RSR;", "list word := [LSL; LSR; RSR;"),
+    ("WiderMargin.v", "| LSL | RSL => y <> 0 \\/ 0 < x", "| LSL | RSL => True"),
     ("Motion.v", "right_derive x t (1 + u t * y t);", "right_derive x t (2 + u t * y t);"),
 ]
 
 
 def definitions():
-    """The real-valued definitions of formal/ by name: their parameters, and their bodies as text."""
+    """The definitions of formal/ by name that are numbers or conditions: their parameters, their bodies as text."""
     found = {}
     for path in FOLDER.glob("*.v"):
-        pattern = r"Definition (\w+) \(([\w ]+) : R\) : R :=\s*(.*?)\.\s"
+        pattern = r"Definition (\w+) \(([\w ]+) : R\) : (?:R|Prop) :=\s*(.*?)\.\s"
         for name, parameters, body in re.findall(pattern, path.read_text(), flags=re.S):
             found[name] = parameters.split(), body
     return found
@@ -59,6 +66,46 @@ def evaluate(known, name, *values):
     value, rest = _expression(tokens, dict(zip(parameters, values, strict=True)), known)
     assert rest == [], (name, rest)
     return value
+
+
+def holds(known, name, *values):
+    """Whether a condition of formal/, a conjunction of inequalities, holds at real numbers."""
+    parameters, body = known[name]
+    values, rest, truth = dict(zip(parameters, values, strict=True)), ["/\\", *TOKEN.findall(body)], True
+    while rest:
+        assert rest[0] == "/\\", (name, rest)
+        left, (sign, *rest) = _sum(rest[1:], values, known)
+        right, rest = _sum(rest, values, known)
+        truth &= {"<=": left <= right, "<": left < right}[sign]
+    return truth
+
+
+def words():
+    """The words of Wider.v: the names of the condition and the time of each, and the arguments before rho, x, y."""
+    conditions, times = _cases("exists_at"), _cases("time_of")
+    return {
+        word: (condition, time, [float(value.strip("()")) for value in side])
+        for word, (condition,) in conditions.items()
+        for time, *side in [times[word]]
+    }
+
+
+def _cases(name):
+    """The cases of a definition of Wider.v by word: what stands behind the arrow."""
+    text = (FOLDER / "Wider.v").read_text()
+    body = re.search(rf"Definition {name} .*?\bwith\b(.*?)\bend\b", text, flags=re.S)[1]
+    arrows = re.findall(r"((?:\| \w+ )+)=> ([^|]+)", body)
+    return {word: target.split() for left, target in arrows for word in re.findall(r"\w+", left)}
+
+
+def least_of_words(known, choices, rho, x, y):
+    """The word and the least time among those that exist onto the clockwise circle of radius rho: `least_of_words`."""
+    times = [
+        (evaluate(known, time, *side, rho, x, y), word)
+        for word, (condition, time, side) in choices.items()
+        if holds(known, condition, rho, x, y)
+    ]
+    return min(times)
 
 
 def least_time(known, x, y):
@@ -88,15 +135,26 @@ def is_left_below(known, x, y, P):
     return evaluate(known, "outer_angle", x, y) <= evaluate(known, "turn_to", evaluate(known, "m_of", s), s)
 
 
-FUNCTIONS = {"sqrt": lambda v: math.sqrt(max(v, 0.0)), "atan": math.atan, "asin": math.asin}
+FUNCTIONS = {
+    "sqrt": lambda v: math.sqrt(max(v, 0.0)),
+    "atan": math.atan,
+    "asin": math.asin,
+    "acos": lambda v: math.acos(min(max(v, -1.0), 1.0)),
+}
 
 
 def _expression(tokens, values, known):
-    """A sum, or `let name := sum in expression`; returns its value and the tokens after it."""
+    """A sum, after any `let name := sum in` and `if Rle_dec atom atom then sum else`; and the tokens after it."""
     if tokens[0] == "let":
         value, rest = _sum(tokens[3:], values, known)
         assert rest[0] == "in"
         return _expression(rest[1:], values | {tokens[1]: value}, known)
+    if tokens[0] == "if":
+        left, rest = _atom(tokens[2:], values, known)
+        right, rest = _atom(rest, values, known)
+        first, rest = _expression(rest[1:], values, known)
+        second, rest = _expression(rest[1:], values, known)
+        return (first if {"Rle_dec": left <= right, "Rlt_dec": left < right}[tokens[1]] else second), rest
     return _sum(tokens, values, known)
 
 

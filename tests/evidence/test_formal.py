@@ -21,7 +21,7 @@ STANDARD_AXIOMS = {
 
 
 # The files from which docs/formal.md quotes.
-STATED = ("Synthesis.v", "Clockwise.v", "Neighbour.v")
+STATED = ("Synthesis.v", "Clockwise.v", "Wider.v", "WiderMargin.v", "Neighbour.v")
 
 
 @pytest.mark.parametrize("path", sorted(formal.FOLDER.glob("*.v")), ids=lambda path: path.name)
@@ -34,14 +34,14 @@ def test_nothing_is_admitted(path):
 
 def test_page_states_what_is_proved():
     page = (formal.FOLDER.parent / "docs" / "formal.md").read_text()
-    (block,) = re.findall(r"```coq\n(.*?)```", page, flags=re.S)
+    block = "\n".join(re.findall(r"```coq\n(.*?)```", page, flags=re.S))
     proved = " ".join(" ".join((formal.FOLDER / name).read_text().split()) for name in STATED)
     statements = [" ".join(statement.split()) for statement in block.split("\n\n")]
     assert [statement for statement in statements if statement not in proved] == []
     theorems = re.findall(r"Theorem (\w+)", block)
     (tuple_of_all,) = re.findall(r"Definition theorems := \((.*?)\)", proved)
     assert sorted(tuple_of_all.split(", ")) == sorted(theorems)
-    assert len(theorems) == 6
+    assert len(theorems) == 11
 
 
 def test_kernel_computes_the_least_time():
@@ -68,6 +68,29 @@ def test_kernel_computes_the_least_time_clockwise():
         regions[region] = regions.get(region, 0) + 1
         assert time == pytest.approx(float(loiter.min_time(x, y, turn="cw")), abs=1e-9), (x, y)
     assert min(regions.get(name, 0) for name in ("time_rsl", "time_rl_left", "time_rl_right", "time_lrl")) > 50
+
+
+@pytest.mark.parametrize(
+    ("radius", "fastest"),
+    [
+        (1.0, "LRL LSL RL_left RL_right RSL"),
+        (1.5, "LRL LR_right LSL RL_left RL_right RSL"),
+        (2.0, "LRL LR_right LSL RL_left RL_right RSL"),
+        (7.0, "LR_left LR_right LSL LSR RL_left RL_right RSL RSR"),
+    ],
+)
+def test_kernel_computes_the_least_of_the_words(radius, fastest):
+    """The words of Wider.v, read and evaluated as they stand there, onto wider circles; most states are within them."""
+    definitions, words = formal.definitions(), formal.words()
+    states = np.random.default_rng(5).uniform(-2.0 - radius, 2.0 + radius, (1000, 2))
+    states[800:] *= 0.4  # where LRL and LR begin to exist
+    wins = {}
+    for x, y in states:
+        time, word = formal.least_of_words(definitions, words, radius, x, y)
+        wins[word] = wins.get(word, 0) + 1
+        assert time == pytest.approx(float(loiter.min_time(x, y, radius, turn="cw")), abs=1e-11), (x, y)
+    assert sorted(wins) == fastest.split()
+    assert min(wins.values()) > 20
 
 
 @pytest.mark.skipif(shutil.which("coqc") is None, reason="needs Coq (docs/formal.md)")
