@@ -14,8 +14,8 @@ from web.test_api_problems import requester
 ROOT = Path(__file__).parents[1]
 # docs/proof.md is the proof itself; what it claims is its theorems, what it leaves open is in sections 8 to 11.
 PROOF = ROOT / "docs" / "proof.md"
-# The theorem itself, and that about doubles, with what they rest on and what they do not cover.
-OTHER_PROOFS = [ROOT / "docs" / "formal.md", ROOT / "docs" / "bridging.md"]
+# The theorem itself, and those about doubles and about rolls, with what they rest on and what they do not cover.
+OTHER_PROOFS = [ROOT / "docs" / f"{name}.md" for name in ("formal", "bridging", "rolling")]
 DOCUMENTS = [
     ROOT / "README.md",
     ROOT / "CHANGELOG.md",
@@ -50,7 +50,7 @@ TRUE_OF_SERVICE = [
 CLAIM = re.compile(r"\b(proofs?|prov(?:e|es|ed|en|ing)|witness\w*)\b", re.IGNORECASE)
 # Names of an option, a command, a document and a folder.
 NAMED = re.compile(
-    r"--witness \w+|loiter prove|prove Check|prove\.py|theory proof formal bridging certificate checks paper|"
+    r"--witness \w+|loiter prove|prove Check|prove\.py|theory proof formal bridging rolling certificate checks paper|"
     r"make prove-formal|(docs/)?proof\.md|evidence/proof\b"
 )
 

@@ -29,7 +29,7 @@ STAGES = (
 )
 
 # Intervals of a path before it is in the band, and from there to the circle. Their lengths are free.
-ENTRY, IN_BAND = 48, 12
+ENTRY, IN_BAND = 64, 12
 
 # The largest change of the bank on an interval: the rule of order six is accurate up to there.
 CHANGE = 0.2

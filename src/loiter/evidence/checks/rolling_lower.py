@@ -1,4 +1,4 @@
-"""A time that no aircraft beats whose bank changes at a limited rate: docs/rolling.md has the proof.
+"""A time that no aircraft beats whose bank changes at a limited rate (docs/rolling.md).
 
 In its first seconds such an aircraft reaches few states, and its last seconds, in which it rolls into the bank of the
 hold, begin in few. From one of the first to one of the last it takes no less time than the vehicle of the theory. What
