@@ -102,7 +102,7 @@ Values = Callable[[Array, Array], Array]
 def _time_between(first: Reach, last: Reach) -> float:
     """A time that no path of the vehicle of the theory beats from the first set to the last."""
     p = _states(last, _whole(last)).p
-    radii = np.linspace(max(np.sqrt(2.0 * p.min()), TIGHTEST), np.sqrt(2.0 * p.max()), CIRCLES)
+    radii = np.linspace(*np.maximum(np.sqrt(2.0 * np.array([p.min(), p.max()])), TIGHTEST), CIRCLES)
     away = np.hypot(first.x, first.y)
     origins = np.linspace(max(away - 2.0, TIGHTEST), max(away, TIGHTEST) + 2.0, CIRCLES)
 
@@ -167,7 +167,7 @@ def least_values(reach: Reach, values: Values) -> Array:
 
 
 def before(states: States) -> Before:
-    """For each cell a state from which one arc leads to each of its states, or to one straight before it: lemma 3."""
+    """For each cell a state from which one arc leads to each of its states, or to one straight before it: lemma 4."""
     (x1, x2), (y1, y2), (p1, p2) = states
     y, half = 0.5 * (y1 + y2), 0.5 * (y2 - y1) + ROUNDING
     # With the centre behind, where p grows, if there is room for a state of less p.
