@@ -1,5 +1,6 @@
 """What certificates quote of theorems 5 and 6 of docs/bridging.md, beside 154 digits, and where they quote nothing."""
 
+from math import nextafter, sqrt
 from random import Random
 
 import pytest
@@ -13,7 +14,15 @@ from loiter.kernel.words import Word
 from loiter.planning.problem import problem_of
 from loiter.planning.sides import SIDES
 from loiter.verify import certify
-from loiter.verify.rounding_bound import NOT_CLAIMED, NOT_COVERED, NOT_PLANNED, rounding_bound
+from loiter.verify.rounding_bound import (
+    MISS,
+    MISS_OF_LRL,
+    NOT_CLAIMED,
+    NOT_COVERED,
+    NOT_PLANNED,
+    rounding_bound,
+    units_at,
+)
 
 # R = 1, past the switching curve by an arc that counts as none: late by 21.5 units.
 PAST_THE_CURVE = Case(0.03302678726138515, 0.026673956063606785, 1.0, 1, "switching curve")
@@ -60,6 +69,20 @@ def test_bounds_that_are_too_small_are_refused():
     assert holds(PAST_THE_CURVE, maneuver, found.delta_m, found.epsilon_s)
     assert not holds(PAST_THE_CURVE, maneuver, found.delta_m, 1e-3 * found.epsilon_s)
     assert not holds(PAST_THE_CURVE, maneuver, 1e-3 * found.delta_m, found.epsilon_s)
+
+
+def test_the_double_below_the_largest_radius_of_lrl_is_one_of_lrl():
+    """1 + sqrt(3) as a double is below the number: at (0, 2 - R) the first arc of LRL ends where its second begins."""
+    R = 1.0 + sqrt(3.0)
+    assert units_at(0.0, 2.0 - R, R).delta == MISS_OF_LRL
+    assert units_at(0.0, 2.0 - R, nextafter(R, 3.0)).delta == MISS
+
+
+def test_nothing_is_quoted_beside_circles_that_the_proof_passes_over():
+    assert units_at(0.6, -0.2, 2.5).epsilon < 0.0
+    assert units_at(0.0, -1.0 - 1.5, 4.5).epsilon < 0.0
+    assert units_at(0.6, -0.2, 1.9).epsilon > 0.0
+    assert units_at(0.6, -0.21, 2.5).epsilon > 0.0
 
 
 def test_certificates_quote_the_bounds_in_metres_and_seconds():

@@ -31,7 +31,11 @@ APART = 2.0**-39
 # to there.
 NO_FOLD = 2.0**-150
 
-# Durations are multiplied by the unit of time and divided by it again, with two roundings each.
+# Where the sign of r_p^2 - 1 may be wrong for LSR, and that of `fold` for LR, the proof of theorem 6 shows nothing.
+BESIDE_LSR = 2.0**-48
+
+# Durations are multiplied by the unit of time and divided by it again, with two roundings each; for what this moves the
+# end of an arc the proof of theorem 5 leaves room.
 OF_SECONDS = 2.0**-50
 
 
@@ -74,7 +78,12 @@ def rounding_bound(maneuver: Maneuver, problem: Problem, proved_optimal: bool) -
 def units_at(x: float, y: float, R: float) -> Units:
     """Delta and epsilon of theorems 5 and 6 for the clockwise circle."""
     start, scale = start_at(x, y, R, 0.0), 1.0 + abs(x) + abs(y) + R
-    if 1.0 + sqrt(3.0) <= R or start.fold > NO_FOLD * scale * scale:
+    beside_lsr = R >= 2.0 and -2.0 < y < 0.0 and abs(x * x + y * (y + 2.0)) < BESIDE_LSR
+    beside_lr = R >= 3.0 and abs(start.fold) <= NO_FOLD * scale * scale
+    if beside_lsr or beside_lr:
+        return Units(MISS, -1.0)
+    # The double 1 + sqrt(3) is below the number.
+    if 1.0 + sqrt(3.0) < R or start.fold > NO_FOLD * scale * scale:
         return Units(MISS, LATE if R <= WIDE else LATE_BEYOND)
     gap = -0.5 * start.fold - square_beyond(R - 1.0, 3.0)
     D = gap * gap + 0.1875 * start.fold * (8.0 * (R + 3.0) - start.outer)
