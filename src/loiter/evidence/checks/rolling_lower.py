@@ -102,7 +102,8 @@ Values = Callable[[Array, Array], Array]
 def _time_between(first: Reach, last: Reach) -> float:
     """A time that no path of the vehicle of the theory beats from the first set to the last."""
     p = _states(last, _whole(last)).p
-    radii = np.linspace(*np.maximum(np.sqrt(2.0 * np.array([p.min(), p.max()])), TIGHTEST), CIRCLES)
+    nearest, farthest = (max(np.sqrt(2.0 * end), TIGHTEST) for end in (p.min(), p.max()))
+    radii = np.linspace(nearest, farthest, CIRCLES)
     away = np.hypot(first.x, first.y)
     origins = np.linspace(max(away - 2.0, TIGHTEST), max(away, TIGHTEST) + 2.0, CIRCLES)
 
