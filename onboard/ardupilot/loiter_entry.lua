@@ -2,7 +2,7 @@
 --
 -- Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
 --
--- SHA-256 of the source: a46583c96a842439e5f841e1c26f6ed6af3c4aacc13556f4e5886176baaf50c2
+-- SHA-256 of the source: 45bb23b06304e535c88fbe3b602044241735a7c173d9c43df1ea1bd4dedcfc58
 --
 -- When a switch asks for it, this script flies a plane onto the holding circle around its present target in least
 -- time, and then leaves the circle to ArduPlane: loiter_entry.md. It works by GUIDED_CHANGE_HEADING in GUIDED: the target
@@ -1491,8 +1491,10 @@ function law.coasting_s(roll)
     return roll.lag_s > 0.0 and roll.time_s * roll.lag_s / (roll.time_s + law.rate_gain_s(roll)) or 0.0
 end
 
--- The time from now to the end of a piece at which the bank of another must be commanded.
-function law.early_s(roll, now, limit_deg, first, first_missing_s, second)
+-- After how long a change from the bank of one piece to that of another takes effect, seconds, from a bank `now`.
+--
+-- Banks are in half degrees; `first_missing_s` is what the turn to the first one misses (`TurnDelay`).
+function law.change_delay_s(roll, now, limit_deg, first, first_missing_s, second)
     if first == second then
         return 0.0
     end
@@ -1527,8 +1529,8 @@ function law.leads_to(limits, leads, now, route)
         current_s = first_missing_s / (tangent - there)
     end
     local more = current_s > 0.0 and first ~= bank and tangent - first_missing_s / current_s - there or 0.0
-    local next_s = law.early_s(roll, now, limit_deg, first, first_missing_s, second) - current_s
-    local last_s = law.early_s(roll, now, limit_deg, first, first_missing_s, last) - current_s
+    local next_s = law.change_delay_s(roll, now, limit_deg, first, first_missing_s, second) - current_s
+    local last_s = law.change_delay_s(roll, now, limit_deg, first, first_missing_s, last) - current_s
     return {bank = bank, rate = rate, current = first, next = second, last = last, current_s = current_s, more =
             more, next_s = next_s, last_s = last_s}
 end
@@ -1972,6 +1974,14 @@ function law.square_beyond(a, b)
     return p - b + e
 end
 
+-- `gap` and v of the quadratic 3 w^2 - 2 gap w + v = 0 of `lrl`.
+function law.lrl_quadratic(start)
+    local R, outer, fold = start.R, start.outer, start.fold
+    local gap = -0.5 * fold - law.square_beyond(R - 1.0, 3.0)
+    local v = -0.0625 * fold * (8.0 * (R + 3.0) - outer)
+    return gap, v
+end
+
 -- Left to the switching curve at (xa, ya), right for more than pi to (xb, yb) on the last circle, left.
 --
 -- With xa / ya = -xb / yb = m and a = 1 + m^2, the circles give a ya^2 + 2 ya = k = rp^2 - 1, a yb^2 + 2 yb = K = R
@@ -1984,8 +1994,7 @@ function law.lrl(start)
     local x, y, R, arc_tolerance, outer, fold = start.x, start.y, start.R, start.arc_tolerance, start.outer,
             start.fold
     local k, d = x * x + y * (y + 2.0), -0.25 * outer
-    local gap = -0.5 * fold - law.square_beyond(R - 1.0, 3.0)
-    local v = -0.0625 * fold * (8.0 * (R + 3.0) - outer)
+    local gap, v = law.lrl_quadratic(start)
     local D = gap * gap - 3.0 * v
     local exists = R <= 3.0 and fold <= 0.0 and D >= 0.0 and gap > 0.0
     local root = sqrt(max(D, 0.0))

@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 38dccc599eee12171584c1ce99474125abadd0b4525a7fefd010f03f3c74c897
+ * SHA-256 of the source: 766a2f32fb4eb966d91e8ffc99c6067b5738359d1b7d4ebdcba312914d51b40c
  */
 #include "loiter.h"
 
@@ -1123,6 +1123,14 @@ static inline real square_beyond(real a, real b) {
     return p - b + e;
 }
 
+/* `gap` and v of the quadratic 3 w^2 - 2 gap w + v = 0 of `lrl`. */
+static inline real_2 lrl_quadratic(const Start *start) {
+    const real R = start->R, outer = start->outer, fold = start->fold;
+    const real gap = -REAL(0.5) * fold - square_beyond(R - REAL(1.0), REAL(3.0));
+    const real v = -REAL(0.0625) * fold * (REAL(8.0) * (R + REAL(3.0)) - outer);
+    return MAKE(real_2){gap, v};
+}
+
 /* Left to the switching curve at (xa, ya), right for more than pi to (xb, yb) on the last circle, left.
  *
  * With xa / ya = -xb / yb = m and a = 1 + m^2, the circles give a ya^2 + 2 ya = k = rp^2 - 1, a yb^2 + 2 yb = K = R
@@ -1136,8 +1144,8 @@ static inline Extremal lrl(const Start *start) {
     const real x = start->x, y = start->y, R = start->R, arc_tolerance = start->arc_tolerance, outer =
             start->outer, fold = start->fold;
     const real k = x * x + y * (y + REAL(2.0)), d = -REAL(0.25) * outer;
-    const real gap = -REAL(0.5) * fold - square_beyond(R - REAL(1.0), REAL(3.0));
-    const real v = -REAL(0.0625) * fold * (REAL(8.0) * (R + REAL(3.0)) - outer);
+    const real_2 lrl_quadratic_1 = lrl_quadratic(start);
+    const real gap = lrl_quadratic_1.a0, v = lrl_quadratic_1.a1;
     const real D = gap * gap - REAL(3.0) * v;
     const bool exists = R <= REAL(3.0) && fold <= REAL(0.0) && D >= REAL(0.0) && gap > REAL(0.0);
     const real root = real_sqrt(max_real(D, REAL(0.0)));
@@ -4589,9 +4597,12 @@ static inline real coasting_s(RollValues roll) {
     return roll.lag_s > REAL(0.0) ? roll.time_s * roll.lag_s / (roll.time_s + rate_gain_s(roll)) : REAL(0.0);
 }
 
-/* The time from now to the end of a piece at which the bank of another must be commanded. */
-static inline real early_s(RollValues roll, Bank now, real limit_deg, integer first, real first_missing_s, integer
-        second) {
+/* After how long a change from the bank of one piece to that of another takes effect, seconds, from a bank `now`.
+ *
+ * Banks are in half degrees; `first_missing_s` is what the turn to the first one misses (`TurnDelay`).
+ */
+static inline real change_delay_s(RollValues roll, Bank now, real limit_deg, integer first, real first_missing_s,
+        integer second) {
     if (first == second) {
         return REAL(0.0);
     }
@@ -4629,8 +4640,8 @@ static inline Leads leads_to(const Limits *limits, const Leads *leads, Bank now,
     }
     const real more = current_s > REAL(0.0) && first != bank ? tangent - first_missing_s / current_s - there :
             REAL(0.0);
-    const real next_s = early_s(roll, now, limit_deg, first, first_missing_s, second) - current_s;
-    const real last_s = early_s(roll, now, limit_deg, first, first_missing_s, last) - current_s;
+    const real next_s = change_delay_s(roll, now, limit_deg, first, first_missing_s, second) - current_s;
+    const real last_s = change_delay_s(roll, now, limit_deg, first, first_missing_s, last) - current_s;
     return MAKE(Leads){bank, rate, first, second, last, current_s, more, next_s, last_s};
 }
 

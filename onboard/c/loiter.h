@@ -6,7 +6,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 38dccc599eee12171584c1ce99474125abadd0b4525a7fefd010f03f3c74c897
+ * SHA-256 of the source: 766a2f32fb4eb966d91e8ffc99c6067b5738359d1b7d4ebdcba312914d51b40c
  */
 #ifndef LOITER_ONBOARD_H
 #define LOITER_ONBOARD_H

@@ -39,6 +39,7 @@ SCOPE: dict[ModuleType, tuple[str, ...]] = {
         "within_reach",
         "rl",
         "lr",
+        "lrl_quadratic",
         "lrl",
     ),
 }

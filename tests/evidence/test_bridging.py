@@ -55,7 +55,7 @@ def test_each_earlier_formula_is_late_at_one_of_these_states(function, text, rep
 def test_mutants_that_lose_digits_are_refused():
     """A part of `python -m evidence.rounding_mutants`."""
     known = rounding_mutants.states(250, 0)
-    functions = "beyond_circles", "within_reach", "rl", "lr", "lrl"
+    functions = "beyond_circles", "within_reach", "rl", "lr", "lrl_quadratic", "lrl"
     # (branch * 0.25 + 1e6) - 1e6 is exact, the square of the last radius serves a tolerance alone, and no state is
     # known at which s ee makes an answer late.
     kept = "branch * 0.25", "(R + 1.0) * (R + 1.0)", "s * ee"

@@ -44,13 +44,13 @@ UNSTABLE = [
     ("LR, left crossing", extremals, "angle", "atan2(cross, dot)", "acos(dot / sqrt(cross * cross + dot * dot))"),
     ("LRL", extremals, "lrl", "-0.5 * (w + d) * q", "(ya - 1e6 + 1e6 - q)"),
     ("LRL", extremals, "lrl", "gap * gap - 3.0 * v", "(gap + 1e6) * gap - (1e6 * gap + 3.0 * v)"),
-    ("LRL", extremals, "lrl", "-0.5 * fold - square", "1e6 - 0.5 * fold - 1e6 - square"),
+    ("LRL", extremals, "lrl_quadratic", "-0.5 * fold - square", "1e6 - 0.5 * fold - 1e6 - square"),
     (
         "LRL",
         extremals,
-        "lrl",
+        "lrl_quadratic",
         "-0.0625 * fold * (8.0 * (R + 3.0) - outer)",
-        "12.0 - 4.0 * (6.0 - gap) + d * d + 1e6 - 1e6",
+        "12.0 - 4.0 * (6.0 - gap) + (0.25 * outer) * (0.25 * outer) + 1e6 - 1e6",
     ),
     # Formulas of earlier versions, which were late by 1e6 units in these places.
     (

@@ -72,6 +72,9 @@ def main():
     if CLANG is None:
         print("clang is needed", file=sys.stderr)
         return 2
+    if not options.seconds.isdigit() and not Path(options.seconds).is_file():
+        print(f"{options.seconds}: neither a number of seconds nor a file with an input", file=sys.stderr)
+        return 2
     with tempfile.TemporaryDirectory() as temporary:
         program = build(Path(temporary), options.called, options.single)
         if not options.seconds.isdigit():

@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 4b439850cc4a3b483adf75028a4b56f4528e1e9e4b3e6ac1bbff85f72e3ee175
+ * SHA-256 of the source: 58a3617706f0be82ea072bcaa77e322ef098e7b36c85b3980cf2c12b6fa29307
  */
 #ifndef LOITER_KERNEL_H
 #define LOITER_KERNEL_H
@@ -702,6 +702,14 @@ static inline real square_beyond(real a, real b) {
     return p - b + e;
 }
 
+/* `gap` and v of the quadratic 3 w^2 - 2 gap w + v = 0 of `lrl`. */
+static inline real_2 lrl_quadratic(Start start) {
+    const real R = start.R, outer = start.outer, fold = start.fold;
+    const real gap = -0.5 * fold - square_beyond(R - 1.0, 3.0);
+    const real v = -0.0625 * fold * (8.0 * (R + 3.0) - outer);
+    return (real_2){gap, v};
+}
+
 /* Left to the switching curve at (xa, ya), right for more than pi to (xb, yb) on the last circle, left.
  *
  * With xa / ya = -xb / yb = m and a = 1 + m^2, the circles give a ya^2 + 2 ya = k = rp^2 - 1, a yb^2 + 2 yb = K = R
@@ -715,8 +723,8 @@ static inline Extremal lrl(Start start) {
     const real x = start.x, y = start.y, R = start.R, arc_tolerance = start.arc_tolerance, outer = start.outer, fold
             = start.fold;
     const real k = x * x + y * (y + 2.0), d = -0.25 * outer;
-    const real gap = -0.5 * fold - square_beyond(R - 1.0, 3.0);
-    const real v = -0.0625 * fold * (8.0 * (R + 3.0) - outer);
+    const real_2 lrl_quadratic_1 = lrl_quadratic(start);
+    const real gap = lrl_quadratic_1.a0, v = lrl_quadratic_1.a1;
     const real D = gap * gap - 3.0 * v;
     const bool exists = R <= 3.0 && fold <= 0.0 && D >= 0.0 && gap > 0.0;
     const real root = sqrt(max_real(D, 0.0));

@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: ccd615ff9972df0ae9a082759a1d5afeb99e01585c1819287e88857438c9b166
+ * SHA-256 of the source: e27410e5741cb98d7ded2c70db82507ceb6e0938b557226a9f21dd21e6bfec23
  */
 #ifndef LOITER_STILL_AIR_LOOPS_H
 #define LOITER_STILL_AIR_LOOPS_H
@@ -412,6 +412,14 @@ static inline LOITER_ALWAYS_INLINE real square_beyond(real a, real b) {
     return p - b + e;
 }
 
+/* `gap` and v of the quadratic 3 w^2 - 2 gap w + v = 0 of `lrl`. */
+static inline LOITER_ALWAYS_INLINE real_2 lrl_quadratic(Start start) {
+    const real R = start.R, outer = start.outer, fold = start.fold;
+    const real gap = -0.5 * fold - square_beyond(R - 1.0, 3.0);
+    const real v = -0.0625 * fold * (8.0 * (R + 3.0) - outer);
+    return (real_2){gap, v};
+}
+
 /* Left to the switching curve at (xa, ya), right for more than pi to (xb, yb) on the last circle, left.
  *
  * With xa / ya = -xb / yb = m and a = 1 + m^2, the circles give a ya^2 + 2 ya = k = rp^2 - 1, a yb^2 + 2 yb = K = R
@@ -425,8 +433,8 @@ static inline LOITER_ALWAYS_INLINE Extremal lrl(Start start) {
     const real x = start.x, y = start.y, R = start.R, arc_tolerance = start.arc_tolerance, outer = start.outer, fold
             = start.fold;
     const real k = x * x + y * (y + 2.0), d = -0.25 * outer;
-    const real gap = -0.5 * fold - square_beyond(R - 1.0, 3.0);
-    const real v = -0.0625 * fold * (8.0 * (R + 3.0) - outer);
+    const real_2 lrl_quadratic_1 = lrl_quadratic(start);
+    const real gap = lrl_quadratic_1.a0, v = lrl_quadratic_1.a1;
     const real D = gap * gap - 3.0 * v;
     const bool exists = R <= 3.0 && fold <= 0.0 && D >= 0.0 && gap > 0.0;
     const real root = sqrt(max_real(D, 0.0));

@@ -4,8 +4,7 @@ It shows that the maneuver is an extremal, gives lambda and psi for checking thi
 faster; the Hamilton-Jacobi-Bellman equation compares it with the least times of neighbouring starts. In still air a
 fastest maneuver is always among the candidates (docs/proof.md, theorem 1), so a valid certificate without a tolerance
 shows that the maneuver is optimal, up to rounding: `Certificate.proved_optimal`; `Certificate.rounding` says how much
-that can be. Distances, curvatures and start times
-of segments are not checked: letters, durations and the join are.
+that can be. Distances, curvatures and start times of segments are not checked: letters, durations and the join are.
 """
 
 from __future__ import annotations

@@ -5,8 +5,8 @@ from __future__ import annotations
 from math import sqrt
 from typing import NamedTuple
 
-from loiter.kernel.exact import square_beyond
-from loiter.kernel.still_air.extremals import start_at
+from loiter.kernel.rounding import ROUNDING, rounding
+from loiter.kernel.still_air.extremals import Start, lrl_quadratic, start_at
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.problem import Problem
 from loiter.planning.sides import SIDES
@@ -17,7 +17,10 @@ NOT_CLAIMED = "the maneuver is not proved to be optimal"
 NOT_PLANNED = "not proved: another maneuver, as fast up to rounding, is the plan"
 NOT_COVERED = "not proved: theorem 6 of docs/bridging.md does not cover this state"
 
-# Theorem 5: delta in units of 2^-52 (1 + |x| + |y| + R), and that of LRL.
+# A unit is this, times the scale of the reduced state.
+UNIT = 2.0**-52
+
+# Theorem 5: delta in units, and that of LRL.
 MISS, MISS_OF_LRL = 256.0, 2048.0
 
 # Theorem 6: epsilon in units, that beyond the radius `WIDE`, and that of LRL where its two roots are apart.
@@ -69,7 +72,7 @@ def rounding_bound(maneuver: Maneuver, problem: Problem, proved_optimal: bool) -
     found = units_at(x, SIDES[maneuver.turn] * y, R)
     if found.epsilon < 0.0:
         return RoundingBound(None, None, NOT_COVERED)
-    unit = 2.0**-52 * (1.0 + abs(x) + abs(y) + R)
+    unit = UNIT * scale_of(x, y, R)
     converted = OF_SECONDS * maneuver.duration_s
     delta_m = found.delta * unit * problem.aircraft.turn_radius_m + converted * problem.aircraft.airspeed_m_s
     return RoundingBound(delta_m, found.epsilon * unit * problem.time_unit_s + converted, BY_THEOREMS)
@@ -77,18 +80,29 @@ def rounding_bound(maneuver: Maneuver, problem: Problem, proved_optimal: bool) -
 
 def units_at(x: float, y: float, R: float) -> Units:
     """Delta and epsilon of theorems 5 and 6 for the clockwise circle."""
-    start, scale = start_at(x, y, R, 0.0), 1.0 + abs(x) + abs(y) + R
-    beside_lsr = R >= 2.0 and -2.0 < y < 0.0 and abs(x * x + y * (y + 2.0)) < BESIDE_LSR
-    beside_lr = R >= 3.0 and abs(start.fold) <= NO_FOLD * scale * scale
-    if beside_lsr or beside_lr:
+    start, scale = start_at(x, y, R, 0.0), scale_of(x, y, R)
+    no_fold = NO_FOLD * scale * scale
+    if is_passed_over(start, no_fold):
         return Units(MISS, -1.0)
     # The double 1 + sqrt(3) is below the number.
-    if 1.0 + sqrt(3.0) < R or start.fold > NO_FOLD * scale * scale:
+    if 1.0 + sqrt(3.0) < R or start.fold > no_fold:
         return Units(MISS, LATE if R <= WIDE else LATE_BEYOND)
-    gap = -0.5 * start.fold - square_beyond(R - 1.0, 3.0)
-    D = gap * gap + 0.1875 * start.fold * (8.0 * (R + 3.0) - start.outer)
+    gap, v = lrl_quadratic(start)
+    D = gap * gap - 3.0 * v
     if abs(D) < APART * gap * gap:
         return Units(MISS_OF_LRL, -1.0)
     if D < 0.0:
         return Units(MISS, LATE)
     return Units(MISS_OF_LRL, LATE_OF_LRL * max(1.0, 0.26 * gap / sqrt(D)))
+
+
+def scale_of(x: float, y: float, R: float) -> float:
+    """1 + |x| + |y| + R, as `rounding` has it."""
+    return rounding(x, y, R) / ROUNDING
+
+
+def is_passed_over(start: Start, no_fold: float) -> bool:
+    """Whether the proof of theorem 6 says nothing of a start: beside the circle where LSR, or LR, begins to exist."""
+    x, y, R = start.x, start.y, start.R
+    beside_lsr = R >= 2.0 and -2.0 < y < 0.0 and abs(x * x + y * (y + 2.0)) < BESIDE_LSR
+    return beside_lsr or (R >= 3.0 and abs(start.fold) <= no_fold)

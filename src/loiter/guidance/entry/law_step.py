@@ -630,13 +630,18 @@ def leads_to(limits: Limits, leads: Leads, now: Bank, route: Route) -> Leads:
     elif rate == 0 and first != bank:
         current_s = first_missing_s / (tangent - there)
     more = tangent - first_missing_s / current_s - there if current_s > 0.0 and first != bank else 0.0
-    next_s = early_s(roll, now, limit_deg, first, first_missing_s, second) - current_s
-    last_s = early_s(roll, now, limit_deg, first, first_missing_s, last) - current_s
+    next_s = change_delay_s(roll, now, limit_deg, first, first_missing_s, second) - current_s
+    last_s = change_delay_s(roll, now, limit_deg, first, first_missing_s, last) - current_s
     return Leads(bank, rate, first, second, last, current_s, more, next_s, last_s)
 
 
-def early_s(roll: RollValues, now: Bank, limit_deg: float, first: int, first_missing_s: float, second: int) -> float:
-    """The time from now to the end of a piece at which the bank of another must be commanded."""
+def change_delay_s(
+    roll: RollValues, now: Bank, limit_deg: float, first: int, first_missing_s: float, second: int
+) -> float:
+    """After how long a change from the bank of one piece to that of another takes effect, seconds, from a bank `now`.
+
+    Banks are in half degrees; `first_missing_s` is what the turn to the first one misses (`TurnDelay`).
+    """
     if first == second:
         return 0.0
     missing_s = turn_delay(roll, now, 0.5 * second, limit_deg).missing_s

@@ -206,6 +206,14 @@ def lr(start: Start, branch: float) -> Extremal:
     return Extremal(Word.LR, first, 0.0 if R > 1.0 and outer <= 0.0 and fold >= 0.0 else inf, last, NO_ROTATION)
 
 
+def lrl_quadratic(start: Start) -> tuple[float, float]:
+    """`gap` and v of the quadratic 3 w^2 - 2 gap w + v = 0 of `lrl`."""
+    R, outer, fold = start.R, start.outer, start.fold
+    gap = -0.5 * fold - square_beyond(R - 1.0, 3.0)
+    v = -0.0625 * fold * (8.0 * (R + 3.0) - outer)
+    return gap, v
+
+
 def lrl(start: Start) -> Extremal:
     """Left to the switching curve at (xa, ya), right for more than pi to (xb, yb) on the last circle, left.
 
@@ -218,8 +226,7 @@ def lrl(start: Start) -> Extremal:
     """
     x, y, R, arc_tolerance, outer, _, fold = start
     k, d = x * x + y * (y + 2.0), -0.25 * outer
-    gap = -0.5 * fold - square_beyond(R - 1.0, 3.0)
-    v = -0.0625 * fold * (8.0 * (R + 3.0) - outer)
+    gap, v = lrl_quadratic(start)
     D = gap * gap - 3.0 * v
     exists = R <= 3.0 and fold <= 0.0 and D >= 0.0 and gap > 0.0
     root = sqrt(max(D, 0.0))

@@ -4,7 +4,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 8731cd0cd06ad7c9946577e2de2924ef8a890e152699e5038ec26053ea03c083
+ * SHA-256 of the source: ece1696e5f40f734e69f9de2a451faffb80708d87375c0df57bac21dc5bec49a
  */
 
 // What Python has and JavaScript has not: the first of two that tie, and quotients rounded down. Integers are doubles
@@ -1000,6 +1000,18 @@ export function square_beyond(a, b) {
 }
 
 /**
+ * `gap` and v of the quadratic 3 w^2 - 2 gap w + v = 0 of `lrl`.
+ *
+ * @type {(start: Start) => [number, number]}
+ */
+export function lrl_quadratic(start) {
+    const R = start.R, outer = start.outer, fold = start.fold;
+    const gap = -0.5 * fold - square_beyond(R - 1.0, 3.0);
+    const v = -0.0625 * fold * (8.0 * (R + 3.0) - outer);
+    return [gap, v];
+}
+
+/**
  * Left to the switching curve at (xa, ya), right for more than pi to (xb, yb) on the last circle, left.
  *
  * With xa / ya = -xb / yb = m and a = 1 + m^2, the circles give a ya^2 + 2 ya = k = rp^2 - 1, a yb^2 + 2 yb = K = R
@@ -1015,8 +1027,8 @@ export function lrl(start) {
     const x = start.x, y = start.y, R = start.R, arc_tolerance = start.arc_tolerance, outer = start.outer, fold =
             start.fold;
     const k = x * x + y * (y + 2.0), d = -0.25 * outer;
-    const gap = -0.5 * fold - square_beyond(R - 1.0, 3.0);
-    const v = -0.0625 * fold * (8.0 * (R + 3.0) - outer);
+    const lrl_quadratic_1 = lrl_quadratic(start);
+    const gap = lrl_quadratic_1[0], v = lrl_quadratic_1[1];
     const D = gap * gap - 3.0 * v;
     /** @type {boolean} */ const exists = R <= 3.0 && fold <= 0.0 && D >= 0.0 && gap > 0.0;
     const root = Math.sqrt(max_real(D, 0.0));
