@@ -1,6 +1,7 @@
 """Vehicles that misbehave: never a bank beyond the limit, one sentence, and then what docs/autopilots.md promises."""
 
 import math
+import random
 import re
 from math import radians
 
@@ -21,6 +22,7 @@ from mavlink.flyer import (
     RETURNS,
     STARTING_S,
     VEHICLES,
+    Airframe,
     FlightPort,
     GuidedPlane,
     OffboardPx4,
@@ -513,9 +515,28 @@ def test_a_wind_that_grows_above_the_airspeed(kind):
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_wind_that_grows_too_strong_ends_the_flight_within_five_seconds(kind):
-    outcome = guided(kind(events=[(JOINING_S, blows(16.0))]))
-    ended(outcome, "the circle cannot be held: orbit radius 80 m cannot be held in a wind of")
+    """The tightest circle has a radius of 89 m then."""
+    outcome = guided(kind(events=[(JOINING_S, blows(14.0))]))
+    ended(outcome, "the tightest circle has a radius of")
+    assert outcome.end.startswith("the circle cannot be held: in a wind of 1")
+    assert outcome.end.endswith("flies the fall-back circle")
     assert outcome.ended_at - JOINING_S < 5.0
+
+
+def test_gusts_about_a_wind_in_which_the_circle_can_just_be_held_do_not_end_the_flight():
+    """In 12.2 m/s the circle of 80 m is the tightest one."""
+    gusts = random.Random(5)
+
+    class Gusty(GuidedPlane):
+        gust = (0.0, 0.0)
+
+        def idle(self, now):
+            # A standard deviation of 0.9 m/s, correlated over 2 s.
+            self.gust = tuple(0.9975 * speed + gusts.gauss(0.0, 0.0636) for speed in self.gust)
+            self.airframe.wind = (12.2 + self.gust[0], self.gust[1])
+            super().idle(now)
+
+    assert guided(Gusty(Airframe(40.0, -30.0, 300.0)), seconds=45.0, keep=True).end == ""
 
 
 def test_a_wind_that_the_vehicle_reports_wrongly_is_not_believed():

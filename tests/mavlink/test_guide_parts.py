@@ -2,6 +2,7 @@
 
 import csv
 import math
+import random
 import subprocess
 import sys
 from math import degrees, isnan, radians, tan
@@ -32,6 +33,7 @@ from loiter.mavlink.connection.round_trip import RoundTrip
 from loiter.mavlink.connection.streams import TRIES, Streams, guide_streams, rates_to_try_hz, watch_streams
 from loiter.mavlink.connection.telemetry import Telemetry
 from loiter.mavlink.guiding.hand_over import last_bank_deg, sent_radius_m
+from loiter.mavlink.guiding.holdability import HoldabilityWatch
 from loiter.mavlink.guiding.measurements import AirspeedSource, Measurements
 from loiter.mavlink.guiding.preparation import check_in_wind
 from loiter.mavlink.guiding.report import GuideReport, Stage
@@ -590,6 +592,7 @@ def estimates(ratio=1.0, wind=(0.0, 0.0), airspeed=18.0):
         wind_east_m_s=wind[0],
         wind_north_m_s=wind[1],
         airspeed_m_s=airspeed,
+        turn_airspeed_m_s=airspeed,
     )
 
 
@@ -677,6 +680,54 @@ def test_an_estimated_wind_that_just_passes_what_can_be_held_counts_as_unknown()
         check_in_wind(CIRCLE, uav, (9.0, 0.0))
     with pytest.raises(WindTooStrong, match="a wind of 20 m/s"):
         check_in_wind(CIRCLE, uav, (20.0, 0.0))
+
+
+def watched(believed, radius_m=150.0, limit_deg=44.5):
+    """The problems of a circle under estimates, one each half second; one of 150 m is the tightest in 14 m/s."""
+    watch = HoldabilityWatch(radius_m, limit_deg)
+    return [watch.problem(one, 0.5 * i) for i, one in enumerate(believed)]
+
+
+def windy(speed, count, ratio=1.0):
+    return [estimates(ratio, (0.0, -speed), 24.0)] * count
+
+
+def test_a_wind_in_which_a_circle_cannot_be_held_is_a_problem_after_two_seconds():
+    problems = watched([*windy(0.0, 10), *windy(17.0, 6)])
+    assert not any(problems[:13])
+    assert (
+        problems[14]
+        == problems[15]
+        == (
+            "in a wind of 17.0 m/s, at 24.0 m/s and 44.5 degrees of bank, the tightest circle has a radius of 174 m; "
+            "one of 150 m needs 49 degrees"
+        )
+    )
+    # A mean of two seconds that still has an estimate of before is enough if the circle is far too tight.
+    assert watched([*windy(0.0, 10), *windy(17.0, 6)], 120.0)[13].startswith("in a wind of 17.0 m/s")
+    assert watched(windy(25.0, 9))[-1] == "in a wind of 25.0 m/s an aircraft of 24.0 m/s can hold no circle"
+
+
+def test_a_circle_that_is_hardly_too_tight_is_none():
+    # 8 % of the radius are 4 % of the speed downwind, here 1.5 m/s.
+    assert not any(watched(windy(15.4, 100)))
+    assert watched(windy(15.6, 9))[-1]
+
+
+def test_a_turn_ratio_makes_a_circle_wider_down_to_a_bound():
+    assert not any(watched(windy(14.0, 100, 0.93)))
+    assert watched(windy(14.0, 9, 0.92))[-1]
+    # Calm: it slips after a reversal.
+    assert not any(watched(windy(0.0, 9, 0.7), 65.0))
+    assert not any(watched(windy(15.4, 100, 1.1)))
+
+
+def test_one_wrong_estimate_and_noise_are_no_reason_to_give_up_a_circle():
+    assert not any(watched([*windy(11.0, 10), *windy(26.2, 1), *windy(11.0, 10)]))
+    noise = random.Random(1)
+    for _ in range(100):
+        winds = [(noise.gauss(0.0, 0.8), 14.0 + noise.gauss(0.0, 0.8)) for _ in range(120)]
+        assert not any(watched([estimates(wind=wind, airspeed=24.0) for wind in winds]))
 
 
 def test_the_first_steps_of_a_law_load_nothing():

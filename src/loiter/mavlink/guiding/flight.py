@@ -23,8 +23,9 @@ from loiter.mavlink.connection.command import PendingCommand, hold_command, mode
 from loiter.mavlink.connection.link import ACTIVE
 from loiter.mavlink.guiding.contact import STEP_S, Contact
 from loiter.mavlink.guiding.hand_over import last_bank_deg, sent_radius_m
+from loiter.mavlink.guiding.holdability import HoldabilityWatch
 from loiter.mavlink.guiding.monitor import StopReason
-from loiter.mavlink.guiding.preparation import FlightSetup, GuideRequest, check_in_wind, choose, prepare
+from loiter.mavlink.guiding.preparation import FlightSetup, GuideRequest, choose, prepare
 from loiter.mavlink.guiding.report import GuideReport, Stage
 from loiter.mavlink.guiding.settling import LASTING_S, PRESENT_S, SteadyHoldDetector
 from loiter.mavlink.guiding.summary import loss_consequence, summary
@@ -81,6 +82,7 @@ class GuidedFlight:
         self._monitor, self._modes = contact.monitor, contact.monitor.modes
         self._setup: FlightSetup
         self._law: LoiterEntry
+        self._holdability: HoldabilityWatch
         self._steady = SteadyHoldDetector(self.orbit)
         # What has been done: whether the fall-back circle was commanded and accepted, whether banks are commanded.
         self._commanded = self._accepted = self._steered = False
@@ -187,6 +189,11 @@ class GuidedFlight:
             delay_s=delay_s,
         )
 
+    def _new_holdability(self) -> HoldabilityWatch:
+        limit_deg = self._setup.aircraft.max_bank_deg
+        assert limit_deg is not None  # the aircraft is made with a bank limit
+        return HoldabilityWatch(self.orbit.radius_m, limit_deg)
+
     def _slot_by_vehicle(self, slot: Slot) -> Slot:
         """The slot by the clock of the vehicle: the newest measurement arrived at a Unix time."""
         arrived_s = time() - (monotonic() - self._contact.measurements.arrived)
@@ -269,7 +276,7 @@ class GuidedFlight:
         self._modes.accepted(monotonic())
         self._contact.pending = None
         self._stage, self._steered = Stage.JOINING, True
-        self._law = self._new_law()
+        self._law, self._holdability = self._new_law(), self._new_holdability()
         began = monotonic()
         limit_s, self._last_step = inf, began - STEP_S
         while not (self._steady.settled and not self._request.keep):
@@ -464,15 +471,10 @@ class GuidedFlight:
         self.record(self._report)
 
     def _check_wind(self, now: float) -> None:
-        """Note whether the circle can be held in the wind that the law estimates: a mean of what was measured."""
-        if now < self._next_wind:
-            return
-        self._next_wind, estimates = now + WIND_S, self._law.estimates
-        self._monitor.wind_problem = ""
-        try:
-            check_in_wind(self.orbit, self._setup.aircraft, (estimates.wind_east_m_s, estimates.wind_north_m_s))
-        except LoiterError as error:
-            self._monitor.wind_problem = str(error)
+        """Note whether the circle can be held in the wind, at the airspeed and with the turn ratio of the law."""
+        if now >= self._next_wind:
+            self._next_wind = now + WIND_S
+            self._monitor.wind_problem = self._holdability.problem(self._law.estimates, now)
 
     def _measure(self) -> State:
         """The last measured state; the one before where the last messages give none."""

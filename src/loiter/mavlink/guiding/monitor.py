@@ -22,8 +22,8 @@ LATE_S, LATE_FOR_S, UNHEARD_S = 1.0, 0.5, 3.0
 # The least rate of measurements, per second, with some margin, and the seconds for which it may be lower.
 LEAST_HZ, SLOW_S = 4.5, 2.0
 
-# Seconds for which the estimator may report that it has no position, and for which the wind may be too strong.
-BAD_ESTIMATE_S, STRONG_WIND_S = 1.0, 2.0
+# Seconds for which the estimator may report that it has no position.
+BAD_ESTIMATE_S = 1.0
 
 # Seconds for which the pilot may move a stick.
 STICK_S = 0.3
@@ -77,7 +77,8 @@ class Monitor:
     """Watches a vehicle and its link; `check` gives the first reason to stop.
 
     `circle_altitude_m` is the altitude of the circle above mean sea level, metres, nan before it is commanded;
-    `unanswered_s` is how long the vehicle has not answered, seconds; `stick_moved` whether the pilot moves a stick.
+    `wind_problem` why the circle cannot be held; `unanswered_s` how long the vehicle has not answered, seconds;
+    `stick_moved` whether the pilot moves a stick.
     """
 
     def __init__(self, vehicle: Vehicle, telemetry: Telemetry, measurements: Measurements) -> None:
@@ -88,9 +89,7 @@ class Monitor:
         self.unanswered_s = 0.0
         self.command_deg = self.bank_deg = 0.0
         self.circle_altitude_m, self._nearest_m = nan, inf
-        self._bad, self._slow, self._windy, self._off, self._departed, self._stick, self._late = (
-            ConditionTimer() for _ in range(7)
-        )
+        self._bad, self._slow, self._off, self._departed, self._stick, self._late = (ConditionTimer() for _ in range(6))
 
     def check(self, now: float) -> StopReason | None:
         """The reason to stop, or None. Those that forbid any further command come first."""
@@ -125,7 +124,7 @@ class Monitor:
             return StopReason("the autopilot reports a failsafe")
         if problem := self._altitude(now):
             return problem
-        if self._windy.update(bool(self.wind_problem), now) > STRONG_WIND_S:
+        if self.wind_problem:
             return StopReason(f"the circle cannot be held: {self.wind_problem}")
         if self._off.update(abs(self.command_deg - self.bank_deg) > UNRESPONSIVE_DEG, now) > UNRESPONSIVE_S:
             return StopReason(f"the vehicle does not follow the commanded bank, {self.command_deg:.0f} degrees")
