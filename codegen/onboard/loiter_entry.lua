@@ -222,7 +222,9 @@ local function measure_turns(now)
         airspeed_m_s = now.airspeed_m_s,
         velocity_east_m_s = now.velocity_east_m_s, velocity_north_m_s = now.velocity_north_m_s,
     }
-    turns = law.add_turn(turns, @EXPECTED_RATIO@, 0.0, now, state, now.wind_east_m_s, now.wind_north_m_s, dt)
+    local declared = {turn_ratio = @EXPECTED_RATIO@, course_lead_s = 0.0}
+    local wind = {east_m_s = now.wind_east_m_s, north_m_s = now.wind_north_m_s}
+    turns = law.add_turn(turns, declared, now, state, wind, dt)
     return true
 end
 

@@ -2,7 +2,7 @@
 --
 -- Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
 --
--- SHA-256 of the source: 45bb23b06304e535c88fbe3b602044241735a7c173d9c43df1ea1bd4dedcfc58
+-- SHA-256 of the source: c687293b0cc708ec32e19404b48f55d3a2e754bd3b6573f510dc09f5c935d4f4
 --
 -- When a switch asks for it, this script flies a plane onto the holding circle around its present target in least
 -- time, and then leaves the circle to ArduPlane: loiter_entry.md. It works by GUIDED_CHANGE_HEADING in GUIDED: the target
@@ -1077,10 +1077,15 @@ function law.gust(near, far)
     return max(far.square - near.square, 0.0) / max(far.time_s - near.time_s, 0.1)
 end
 
+-- The root mean square change of course in a second, radians, by gusts that show in these differences.
+function law.course_change(observer, near, far)
+    local V = observer.estimate.airspeed_m_s
+    return V > 0.0 and sqrt(law.gust(near, far)) / V or 0.0
+end
+
 -- The root mean square change of course that gusts cause in a second, radians.
 function law.roughness(observer)
-    local V = observer.estimate.airspeed_m_s
-    return V > 0.0 and sqrt(law.gust(observer.air.near, observer.air.far)) / V or 0.0
+    return law.course_change(observer, observer.air.near, observer.air.far)
 end
 
 -- The smoothing time for the present air and the interval of the measurements.
@@ -2340,16 +2345,16 @@ function law.found_entry(search)
             speed_m_s = scale * V, wind_east_m_s = east, wind_north_m_s = north}
 end
 
--- Whether a word is that of an entry, without pieces at its beginning that take no longer than `bend_s` in all.
-function law.is_rest(entry, left, bend_s)
-    local word = entry.word
-    if word == left then
+-- Whether an entry flies a word, after additional pieces that take no longer than `bend_s` in all.
+function law.ends_with(entry, word, bend_s)
+    local without_first = law.rest(entry.word)
+    if entry.word == word then
         return true
     end
-    if (word >> 2) == left then
+    if without_first == word then
         return entry.t1_s <= bend_s
     end
-    return (word >> 4) == left and entry.t1_s + entry.t2_s <= bend_s
+    return law.rest(without_first) == word and entry.t1_s + entry.t2_s <= bend_s
 end
 
 -- The time until the circle is joined.
@@ -2367,7 +2372,7 @@ function law.is_better(entry, plan, turns, update, passed_s)
     local route, unit_s = plan.route, turns.planned_m / turns.airspeed_m_s
     local is_still = entry.wind_east_m_s == 0.0 and entry.wind_north_m_s == 0.0
     local left = law.encode(route.current.u, route.second.u, route.third.u)
-    local same = entry.side == route.side and law.is_rest(entry, left, is_still and 0.0 or 0.1--[[LONGEST_BEND]] *
+    local same = entry.side == route.side and law.ends_with(entry, left, is_still and 0.0 or 0.1--[[LONGEST_BEND]] *
             unit_s)
     if same and not update then
         return false
@@ -2450,10 +2455,9 @@ end
 
 -- The same by gusts along the flight since `restart_gusts`: a slip that changes with the bank does not count.
 function law.along_roughness(observer)
-    local V, air = observer.estimate.airspeed_m_s, observer.air
-    local change = max(air.along.far_square - air.along.near_square, 0.0) / max(air.far.time_s - air.near.time_s,
-            0.1)
-    return V > 0.0 and sqrt(change) / V or 0.0
+    local near, far, along = observer.air.near, observer.air.far, observer.air.along
+    return law.course_change(observer, {time_s = near.time_s, square = along.near_square}, {time_s = far.time_s,
+            square = along.far_square})
 end
 
 -- The gain of course corrections in the present air; on the circle, which turns at `turn_rate`, it is smaller.
@@ -2704,10 +2708,10 @@ function law.add_quick_turn(turns, declared, direction_deg, rate_deg_s, dt)
             measured_mean, computed_mean = computed_mean}
 end
 
--- The fit with a measurement `dt` seconds after the last, in a wind towards the east and the north.
-function law.add_course(lead, declared_s, state, turn_ratio, wind_east_m_s, wind_north_m_s, dt)
+-- The fit with a measurement `dt` seconds after the last, in a wind.
+function law.add_course(lead, declared_s, state, turn_ratio, wind, dt)
     local c, s = law.heading_vector(state.heading_deg)
-    local east, north = state.velocity_east_m_s - wind_east_m_s, state.velocity_north_m_s - wind_north_m_s
+    local east, north = state.velocity_east_m_s - wind.east_m_s, state.velocity_north_m_s - wind.north_m_s
     -- Both positive to the right.
     local angle = law.filter_value(lead.angle, atan(east * s - north * c, east * c + north * s), dt,
             1.5--[[LEAD_FILTER_S]])
@@ -2721,13 +2725,13 @@ function law.add_course(lead, declared_s, state, turn_ratio, wind_east_m_s, wind
 end
 
 -- The fits with a measurement `dt` seconds after the last, and with the same state without its biases.
-function law.add_turn(turns, declared, declared_s, measurement, state, wind_east_m_s, wind_north_m_s, dt)
-    local slow = law.add_slow_turn(turns.slow, declared, measurement, dt)
+function law.add_turn(turns, declared, measurement, state, wind, dt)
+    local slow = law.add_slow_turn(turns.slow, declared.turn_ratio, measurement, dt)
     local rate_deg_s = law.rate_at_bank(state.bank_deg, state.airspeed_m_s) * 57.29577951308232
-    local course_deg = atan(state.velocity_east_m_s - wind_east_m_s, state.velocity_north_m_s - wind_north_m_s) *
+    local course_deg = atan(state.velocity_east_m_s - wind.east_m_s, state.velocity_north_m_s - wind.north_m_s) *
             57.29577951308232
-    local quick = law.add_quick_turn(turns.quick, declared, course_deg, rate_deg_s, dt)
-    local lead = law.add_course(turns.lead, declared_s, state, slow.ratio, wind_east_m_s, wind_north_m_s, dt)
+    local quick = law.add_quick_turn(turns.quick, declared.turn_ratio, course_deg, rate_deg_s, dt)
+    local lead = law.add_course(turns.lead, declared.course_lead_s, state, slow.ratio, wind, dt)
     return {slow = slow, quick = quick, lead = lead}
 end
 
@@ -3231,7 +3235,9 @@ local function measure_turns(now)
         airspeed_m_s = now.airspeed_m_s,
         velocity_east_m_s = now.velocity_east_m_s, velocity_north_m_s = now.velocity_north_m_s,
     }
-    turns = law.add_turn(turns, 0.95, 0.0, now, state, now.wind_east_m_s, now.wind_north_m_s, dt)
+    local declared = {turn_ratio = 0.95, course_lead_s = 0.0}
+    local wind = {east_m_s = now.wind_east_m_s, north_m_s = now.wind_north_m_s}
+    turns = law.add_turn(turns, declared, now, state, wind, dt)
     return true
 end
 

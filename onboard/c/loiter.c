@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 766a2f32fb4eb966d91e8ffc99c6067b5738359d1b7d4ebdcba312914d51b40c
+ * SHA-256 of the source: 48f0b45dd3fff2a51590c8c9d151e9717a0b28dbc19f85ba67a1ff445c32ce04
  */
 #include "loiter.h"
 
@@ -4148,10 +4148,15 @@ static inline real gust(Difference near, Difference far) {
     return max_real(far.square - near.square, REAL(0.0)) / max_real(far.time_s - near.time_s, REAL(0.1));
 }
 
+/* The root mean square change of course in a second, radians, by gusts that show in these differences. */
+static inline real course_change(const Observer *observer, Difference near, Difference far) {
+    const real V = observer->estimate.airspeed_m_s;
+    return V > REAL(0.0) ? real_sqrt(gust(near, far)) / V : REAL(0.0);
+}
+
 /* The root mean square change of course that gusts cause in a second, radians. */
 static inline real roughness(const Observer *observer) {
-    const real V = observer->estimate.airspeed_m_s;
-    return V > REAL(0.0) ? real_sqrt(gust(observer->air.near, observer->air.far)) / V : REAL(0.0);
+    return course_change(observer, observer->air.near, observer->air.far);
 }
 
 /* The smoothing time for the present air and the interval of the measurements. */
@@ -4989,16 +4994,16 @@ static inline PlannedEntry found_entry(const EntrySearch *search) {
     return MAKE(PlannedEntry){entry.side, entry.word, t1_s, t2_s, t3_s, scale * r, scale * V, east, north};
 }
 
-/* Whether a word is that of an entry, without pieces at its beginning that take no longer than `bend_s` in all. */
-static inline bool is_rest(const PlannedEntry *entry, integer left, real bend_s) {
-    const integer word = entry->word;
-    if (word == left) {
+/* Whether an entry flies a word, after additional pieces that take no longer than `bend_s` in all. */
+static inline bool ends_with(const PlannedEntry *entry, integer word, real bend_s) {
+    const integer without_first = rest(entry->word);
+    if (entry->word == word) {
         return true;
     }
-    if ((word >> 2) == left) {
+    if (without_first == word) {
         return entry->t1_s <= bend_s;
     }
-    return (word >> 4) == left && entry->t1_s + entry->t2_s <= bend_s;
+    return rest(without_first) == word && entry->t1_s + entry->t2_s <= bend_s;
 }
 
 /* The time until the circle is joined. */
@@ -5019,7 +5024,7 @@ static inline bool is_better(const PlannedEntry *entry, const Plan *plan, TurnLi
     const real unit_s = turns.planned_m / turns.airspeed_m_s;
     const bool is_still = entry->wind_east_m_s == REAL(0.0) && entry->wind_north_m_s == REAL(0.0);
     const integer left = encode(route.current.u, route.second.u, route.third.u);
-    const bool same = entry->side == route.side && is_rest(entry, left, is_still ? REAL(0.0) : LONGEST_BEND *
+    const bool same = entry->side == route.side && ends_with(entry, left, is_still ? REAL(0.0) : LONGEST_BEND *
             unit_s);
     if (same && !update) {
         return false;
@@ -5114,11 +5119,10 @@ static inline real_2 path_velocity(const Route *route, const RelativeState *stat
 
 /* The same by gusts along the flight since `restart_gusts`: a slip that changes with the bank does not count. */
 static inline real along_roughness(const Observer *observer) {
-    const real V = observer->estimate.airspeed_m_s;
-    const AirAverage air = observer->air;
-    const real change = max_real(air.along.far_square - air.along.near_square, REAL(0.0)) / max_real(air.far.time_s
-            - air.near.time_s, REAL(0.1));
-    return V > REAL(0.0) ? real_sqrt(change) / V : REAL(0.0);
+    const Difference near = observer->air.near, far = observer->air.far;
+    const AlongFlight along = observer->air.along;
+    return course_change(observer, MAKE(Difference){near.time_s, along.near_square}, MAKE(Difference){far.time_s,
+            along.far_square});
 }
 
 /* The gain of course corrections in the present air; on the circle, which turns at `turn_rate`, it is smaller.

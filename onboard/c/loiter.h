@@ -6,7 +6,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 766a2f32fb4eb966d91e8ffc99c6067b5738359d1b7d4ebdcba312914d51b40c
+ * SHA-256 of the source: 48f0b45dd3fff2a51590c8c9d151e9717a0b28dbc19f85ba67a1ff445c32ce04
  */
 #ifndef LOITER_ONBOARD_H
 #define LOITER_ONBOARD_H

@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 56405d5a9c757e77d122276ecf6ac8229c5ff48f360bcdd6580b0d4c49095937
+ * SHA-256 of the source: e43d9cadb55b6a45a2fdf84f3413438ceec90ad590e396edf8eeba57746cf378
  */
 #include "loiter_identification.h"
 
@@ -464,6 +464,9 @@ static const ModelStep NO_MODEL_STEP = {REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.
 
 /* A step of a model of second order is computed in so many. */
 #define SUBSTEPS 32
+
+/* For fewer lags of the bank rate its effect is a series, of which the first term that is left out is 1.4e-6 here. */
+#define SHORT_LAGS REAL(0.1)
 #define SECOND_TIME REAL(0.71)
 #define SECOND_LAG REAL(0.58)
 
@@ -509,9 +512,6 @@ static const WindChange NO_CHANGE = {REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0),
  * model.
  */
 #define LONGEST_STEP_S REAL(20.0)
-
-/* For fewer lags of the bank rate its effect is a series, of which the first term that is left out is 1.4e-6 here. */
-#define SHORT_LAGS REAL(0.1)
 
 /* The largest plausible time stamp, seconds: 32,000 years, where a double still resolves a tenth of a millisecond. */
 #define LATEST_S REAL(1000000000000.0)
@@ -656,12 +656,45 @@ static inline real value_at(const Unknown *unknown, real index) {
     return unknown->declared + unknown->step * (index - unknown->at_index);
 }
 
-/* A bank and its rate after a short step under a command of 0. */
-static inline Bank decayed(Bank now, real time_s, real lag_s, real dt) {
-    const real half_deg = now.bank_deg + REAL(0.5) * dt * now.rate_deg_s;
-    const real half_deg_s = now.rate_deg_s - REAL(0.5) * dt * (now.bank_deg / time_s + now.rate_deg_s) / lag_s;
-    return MAKE(Bank){now.bank_deg + dt * half_deg_s, now.rate_deg_s - dt * (half_deg / time_s + half_deg_s) /
-            lag_s};
+/* The exact bank after `time_s` seconds under a constant command. */
+static inline real bank_after(real roll_time_s, real rate_deg_s, real bank_deg, real command_deg, real time_s) {
+    if (roll_time_s == REAL(0.0) && rate_deg_s == REAL_INFINITY) {
+        return command_deg;
+    }
+    real missing = command_deg - bank_deg;
+    const real sign = missing >= REAL(0.0) ? REAL(1.0) : -REAL(1.0);
+    const real beyond = max_real(real_fabs(missing) - rate_deg_s * roll_time_s, REAL(0.0));
+    const real limited_s = beyond / rate_deg_s;
+    if (limited_s > time_s) {
+        return bank_deg + sign * rate_deg_s * time_s;
+    }
+    missing -= sign * beyond;
+    if (roll_time_s > REAL(0.0)) {
+        return command_deg - missing * real_exp(-(time_s - limited_s) / roll_time_s);
+    }
+    return time_s <= limited_s ? command_deg - missing : command_deg;
+}
+
+/* `value`, limited to the range from -`limit` to `limit`. */
+static inline real clip(real value, real limit) {
+    /* Comparisons take a third of the time of `min` and `max`, and a law clips several values in each step. */
+    return value > limit ? limit : value < -limit ? -limit : value;
+}
+
+/* The bank after a short time under a constant command; exact without a lag of the bank rate. */
+static inline Bank roll_after(RollValues roll, Bank now, real command_deg, real time_s) {
+    if (roll.lag_s == REAL(0.0) || time_s == REAL(0.0)) {
+        return MAKE(Bank){bank_after(roll.time_s, roll.rate_deg_s, now.bank_deg, command_deg, time_s),
+                now.rate_deg_s};
+    }
+    const real kept = real_exp(-time_s / roll.lag_s);
+    const real wanted_deg_s = (command_deg - now.bank_deg - REAL(0.5) * time_s * now.rate_deg_s) / roll.time_s;
+    const real rate_deg_s = clip(wanted_deg_s + kept * (now.rate_deg_s - wanted_deg_s), roll.rate_deg_s);
+    const real lags = time_s / roll.lag_s;
+    /* The difference of large numbers for a short time, of which this is the series. */
+    const real share = lags < SHORT_LAGS ? REAL(0.5) - lags / REAL(12.0) : REAL(1.0) / lags - kept / (REAL(1.0) -
+            kept);
+    return MAKE(Bank){now.bank_deg + time_s * (rate_deg_s + share * (now.rate_deg_s - rate_deg_s)), rate_deg_s};
 }
 
 /* The step of a model without its limit. */
@@ -669,11 +702,12 @@ static inline ModelStep step_of(real time_s, real lag_s) {
     if (lag_s == REAL(0.0)) {
         return MAKE(ModelStep){REAL(1.0) - real_exp(-STEP_S / time_s), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)};
     }
+    const RollValues roll = MAKE(RollValues){time_s, REAL_INFINITY, lag_s};
     Bank one = MAKE(Bank){REAL(1.0), REAL(0.0)}, other = MAKE(Bank){REAL(0.0), REAL(1.0)};
     const real dt = STEP_S / (real)SUBSTEPS;
     for (integer pass_1 = 0; pass_1 < SUBSTEPS; pass_1++) {
-        one = decayed(one, time_s, lag_s, dt);
-        other = decayed(other, time_s, lag_s, dt);
+        one = roll_after(roll, one, REAL(0.0), dt);
+        other = roll_after(roll, other, REAL(0.0), dt);
     }
     return MAKE(ModelStep){REAL(1.0) - one.bank_deg, other.bank_deg, -one.rate_deg_s, other.rate_deg_s, lag_s};
 }
@@ -723,12 +757,6 @@ static inline IdentificationSettings settings_of(const VehicleEstimates *declare
 /* A comparison with a measured bank of which so many kinds count as done. */
 static inline Comparison comparison_with(MeasuredBank measured, integer done) {
     return MAKE(Comparison){measured, done, REAL(0.0), REAL(0.0), NO_SUMS, NO_SUMS, NO_SUMS, REAL(0.0), REAL(0.0)};
-}
-
-/* `value`, limited to the range from -`limit` to `limit`. */
-static inline real clip(real value, real limit) {
-    /* Comparisons take a third of the time of `min` and `max`, and a law clips several values in each step. */
-    return value > limit ? limit : value < -limit ? -limit : value;
 }
 
 /* A model after a step under a command. */
@@ -930,41 +958,6 @@ static inline Bank mean_bank(const RollMemory *memory, const RollSettings *setti
         }
     }
     return MAKE(Bank){bank_deg / memory->weights.total, lag_s > REAL(0.0) ? coasted_deg / lag_s : REAL(0.0)};
-}
-
-/* The exact bank after `time_s` seconds under a constant command. */
-static inline real bank_after(real roll_time_s, real rate_deg_s, real bank_deg, real command_deg, real time_s) {
-    if (roll_time_s == REAL(0.0) && rate_deg_s == REAL_INFINITY) {
-        return command_deg;
-    }
-    real missing = command_deg - bank_deg;
-    const real sign = missing >= REAL(0.0) ? REAL(1.0) : -REAL(1.0);
-    const real beyond = max_real(real_fabs(missing) - rate_deg_s * roll_time_s, REAL(0.0));
-    const real limited_s = beyond / rate_deg_s;
-    if (limited_s > time_s) {
-        return bank_deg + sign * rate_deg_s * time_s;
-    }
-    missing -= sign * beyond;
-    if (roll_time_s > REAL(0.0)) {
-        return command_deg - missing * real_exp(-(time_s - limited_s) / roll_time_s);
-    }
-    return time_s <= limited_s ? command_deg - missing : command_deg;
-}
-
-/* The bank after a short time under a constant command; exact without a lag of the bank rate. */
-static inline Bank roll_after(RollValues roll, Bank now, real command_deg, real time_s) {
-    if (roll.lag_s == REAL(0.0) || time_s == REAL(0.0)) {
-        return MAKE(Bank){bank_after(roll.time_s, roll.rate_deg_s, now.bank_deg, command_deg, time_s),
-                now.rate_deg_s};
-    }
-    const real kept = real_exp(-time_s / roll.lag_s);
-    const real wanted_deg_s = (command_deg - now.bank_deg - REAL(0.5) * time_s * now.rate_deg_s) / roll.time_s;
-    const real rate_deg_s = clip(wanted_deg_s + kept * (now.rate_deg_s - wanted_deg_s), roll.rate_deg_s);
-    const real lags = time_s / roll.lag_s;
-    /* The difference of large numbers for a short time, of which this is the series. */
-    const real share = lags < SHORT_LAGS ? REAL(0.5) - lags / REAL(12.0) : REAL(1.0) / lags - kept / (REAL(1.0) -
-            kept);
-    return MAKE(Bank){now.bank_deg + time_s * (rate_deg_s + share * (now.rate_deg_s - rate_deg_s)), rate_deg_s};
 }
 
 /* The memory after `dt` seconds under a command.
@@ -1197,13 +1190,13 @@ static inline real_2 heading_vector(real heading_deg) {
     return MAKE(real_2){sq * c + cq * s, cq * c - sq * s};
 }
 
-/* The fit with a measurement `dt` seconds after the last, in a wind towards the east and the north. */
+/* The fit with a measurement `dt` seconds after the last, in a wind. */
 static inline CourseLead add_course(const CourseLead *lead, real declared_s, const State *state, real turn_ratio,
-        real wind_east_m_s, real wind_north_m_s, real dt) {
+        const WindFit *wind, real dt) {
     const real_2 heading_vector_1 = heading_vector(state->heading_deg);
     const real c = heading_vector_1.a0, s = heading_vector_1.a1;
-    const real east = state->velocity_east_m_s - wind_east_m_s, north = state->velocity_north_m_s -
-            wind_north_m_s;
+    const real east = state->velocity_east_m_s - wind->east_m_s, north = state->velocity_north_m_s -
+            wind->north_m_s;
     /* Both positive to the right. */
     const HighPass angle = filter_value(lead->angle, real_atan2(east * s - north * c, east * c + north * s), dt,
             LEAD_FILTER_S);
@@ -1215,15 +1208,14 @@ static inline CourseLead add_course(const CourseLead *lead, real declared_s, con
 }
 
 /* The fits with a measurement `dt` seconds after the last, and with the same state without its biases. */
-static inline Turns add_turn(const Turns *turns, real declared, real declared_s, const State *measurement, const
-        State *state, real wind_east_m_s, real wind_north_m_s, real dt) {
-    const SlowTurns slow = add_slow_turn(&turns->slow, declared, measurement, dt);
+static inline Turns add_turn(const Turns *turns, const VehicleEstimates *declared, const State *measurement, const
+        State *state, const WindFit *wind, real dt) {
+    const SlowTurns slow = add_slow_turn(&turns->slow, declared->turn_ratio, measurement, dt);
     const real rate_deg_s = rate_at_bank(state->bank_deg, state->airspeed_m_s) * REAL(57.29577951308232);
-    const real course_deg = real_atan2(state->velocity_east_m_s - wind_east_m_s, state->velocity_north_m_s -
-            wind_north_m_s) * REAL(57.29577951308232);
-    const QuickTurns quick = add_quick_turn(&turns->quick, declared, course_deg, rate_deg_s, dt);
-    const CourseLead lead = add_course(&turns->lead, declared_s, state, slow.ratio, wind_east_m_s, wind_north_m_s,
-            dt);
+    const real course_deg = real_atan2(state->velocity_east_m_s - wind->east_m_s, state->velocity_north_m_s -
+            wind->north_m_s) * REAL(57.29577951308232);
+    const QuickTurns quick = add_quick_turn(&turns->quick, declared->turn_ratio, course_deg, rate_deg_s, dt);
+    const CourseLead lead = add_course(&turns->lead, declared->course_lead_s, state, slow.ratio, wind, dt);
     return MAKE(Turns){slow, quick, lead};
 }
 
@@ -1405,8 +1397,7 @@ static inline void update_fits(Identification *memory, const IdentificationSetti
         turns.lead = first_lead(turns.lead.lead_s, turns.lead.fit);
     }
     const State state = remove_bias(&known, measurement);
-    turns = add_turn(&turns, declared.turn_ratio, declared.course_lead_s, measurement, &state, wind.east_m_s,
-            wind.north_m_s, dt);
+    turns = add_turn(&turns, &declared, measurement, &state, &wind, dt);
     const SlowTurns slow = turns.slow;
     const QuickTurns quick = turns.quick;
     const CourseLead lead = turns.lead;

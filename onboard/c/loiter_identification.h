@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 56405d5a9c757e77d122276ecf6ac8229c5ff48f360bcdd6580b0d4c49095937
+ * SHA-256 of the source: e43d9cadb55b6a45a2fdf84f3413438ceec90ad590e396edf8eeba57746cf378
  */
 #ifndef LOITER_IDENTIFICATION_H
 #define LOITER_IDENTIFICATION_H

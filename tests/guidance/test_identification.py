@@ -44,6 +44,7 @@ from loiter.guidance.estimation.turn_fits import (
     first_slow_turns,
     turn_between_deg,
 )
+from loiter.guidance.estimation.wind_fit import first_wind
 from loiter.guidance.protocol import State
 from loiter.guidance.simulators.point_mass import PointMass
 from loiter.guidance.simulators.roll_dynamics import RollResponse, SecondOrderRoll
@@ -210,7 +211,7 @@ def test_the_lead_of_the_course_is_found_in_wind(lead_s):
         velocity = 20.0 * sin(course) + 4.0, 20.0 * sin(course + pi / 2) - 3.0
         found = state._replace(heading_deg=heading, velocity_east_m_s=velocity[0], velocity_north_m_s=velocity[1])
         # The wind is known to a metre a second.
-        lead = add_course(lead, 0.0, found, 1.0, 4.7, -3.7, state.time_s - before.time_s)
+        lead = add_course(lead, 0.0, found, 1.0, first_wind(4.7, -3.7, 0.0), state.time_s - before.time_s)
     assert lead.lead_s == pytest.approx(lead_s, abs=0.03)
 
 

@@ -7,13 +7,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cache
-from math import atan2, degrees, hypot
+from math import hypot
 from typing import TYPE_CHECKING, Any
 
 from loiter.kernel import motion
 from loiter.kernel.rebinding import Function, rebound
 from loiter.kernel.rounding import ROUNDING
-from loiter.planning.compass import heading_after, heading_vector, wrapped
+from loiter.planning.compass import heading_after, heading_of, heading_vector, wrapped
 from loiter.planning.model import CONTROLS, Aircraft, Pose, Samples, Segment, Setpoints, Wind, position_after
 
 if TYPE_CHECKING:
@@ -51,7 +51,7 @@ def over_ground(heading_deg: float, aircraft: Aircraft, wind: Wind) -> tuple[flo
     if wind.speed_m_s == 0.0:
         return wrapped(heading_deg), aircraft.airspeed_m_s
     east, north = _velocity(*heading_vector(heading_deg), aircraft, wind)
-    return wrapped(degrees(atan2(east, north))), hypot(east, north)
+    return heading_of(east, north), hypot(east, north)
 
 
 def samples(start: Pose, segments: Sequence[Segment], aircraft: Aircraft, wind: Wind, step_s: float) -> Samples:

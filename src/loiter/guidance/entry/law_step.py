@@ -82,7 +82,7 @@ from loiter.guidance.vehicle.rolling import (
 from loiter.guidance.vehicle.turning import bank_at_rate, rate_at_bank
 from loiter.kernel.angles import length
 from loiter.kernel.wind.wind_search import UNLIMITED
-from loiter.kernel.words import ABSENT, Side, Word, code, controls, encode
+from loiter.kernel.words import ABSENT, Side, Word, code, controls, encode, rest
 from loiter.planning.model import STANDARD_GRAVITY_M_S2, radius_at_bank
 
 # The values below were tuned in gusts, with 200 to 500 starts each: docs/guidance.md.
@@ -868,7 +868,7 @@ def is_better(entry: PlannedEntry, plan: Plan, turns: TurnLimits, update: bool, 
     route, unit_s = plan.route, turns.planned_m / turns.airspeed_m_s
     is_still = entry.wind_east_m_s == 0.0 and entry.wind_north_m_s == 0.0
     left = encode(route.current.u, route.second.u, route.third.u)
-    same = entry.side == route.side and is_rest(entry, left, 0.0 if is_still else LONGEST_BEND * unit_s)
+    same = entry.side == route.side and ends_with(entry, left, 0.0 if is_still else LONGEST_BEND * unit_s)
     if same and not update:
         return False
     widened = max(1.0, entry.turn_radius_m / route.turn_radius_m) if same else 1.0
@@ -876,14 +876,14 @@ def is_better(entry: PlannedEntry, plan: Plan, turns: TurnLimits, update: bool, 
     return duration_s(entry) - passed_s < widened * (plan.remaining_s + later_s(route)) + margin_s
 
 
-def is_rest(entry: PlannedEntry, left: int, bend_s: float) -> bool:
-    """Whether a word is that of an entry, without pieces at its beginning that take no longer than `bend_s` in all."""
-    word = entry.word
-    if word == left:
+def ends_with(entry: PlannedEntry, word: int, bend_s: float) -> bool:
+    """Whether an entry flies a word, after additional pieces that take no longer than `bend_s` in all."""
+    without_first = rest(entry.word)
+    if entry.word == word:
         return True
-    if word >> 2 == left:
+    if without_first == word:
         return entry.t1_s <= bend_s
-    return word >> 4 == left and entry.t1_s + entry.t2_s <= bend_s
+    return rest(without_first) == word and entry.t1_s + entry.t2_s <= bend_s
 
 
 def target_bank(settings: Settings, memory: Memory, known: VehicleEstimates, dt: float) -> tuple[float, float]:

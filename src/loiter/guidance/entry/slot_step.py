@@ -39,7 +39,7 @@ from loiter.guidance.entry.law_step import (
     advance_plan,
     conclude,
     continue_search,
-    is_rest,
+    ends_with,
     prepare,
     search_from,
 )
@@ -234,7 +234,7 @@ def plan_into_slot(memory: Memory, kept: SlotMemory, settings: Settings, slot: S
         return memory
     route = plan.route
     left = encode(route.current.u, route.second.u, route.third.u)
-    same = present_s < inf and is_rest(best.entry, left, LONGEST_BEND * unit_s)
+    same = present_s < inf and ends_with(best.entry, left, LONGEST_BEND * unit_s)
     margin_s = (UPDATE_MARGIN if same else -SWITCH_MARGIN) * unit_s
     if not cost_s(slot, best) < present_s + margin_s:
         return memory

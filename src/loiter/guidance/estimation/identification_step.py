@@ -182,9 +182,7 @@ def update_fits(
     elif is_changing(wind):
         turns = turns._replace(lead=first_lead(turns.lead.lead_s, turns.lead.fit))
     state = remove_bias(known, measurement)
-    turns = add_turn(
-        turns, declared.turn_ratio, declared.course_lead_s, measurement, state, wind.east_m_s, wind.north_m_s, dt
-    )
+    turns = add_turn(turns, declared, measurement, state, wind, dt)
     slow, quick, lead = turns
     rate = rate_at_bank(state.bank_deg, state.airspeed_m_s)
     # The direction of flight is to the right of the heading by this angle.

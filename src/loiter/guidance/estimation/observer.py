@@ -292,15 +292,19 @@ def restart_gusts(observer: Observer) -> Observer:
 
 def roughness(observer: Observer) -> float:
     """The root mean square change of course that gusts cause in a second, radians."""
-    V = observer.estimate.airspeed_m_s
-    return sqrt(gust(observer.air.near, observer.air.far)) / V if V > 0.0 else 0.0
+    return course_change(observer, observer.air.near, observer.air.far)
 
 
 def along_roughness(observer: Observer) -> float:
     """The same by gusts along the flight since `restart_gusts`: a slip that changes with the bank does not count."""
-    V, air = observer.estimate.airspeed_m_s, observer.air
-    change = max(air.along.far_square - air.along.near_square, 0.0) / max(air.far.time_s - air.near.time_s, 0.1)
-    return sqrt(change) / V if V > 0.0 else 0.0
+    near, far, along = observer.air.near, observer.air.far, observer.air.along
+    return course_change(observer, Difference(near.time_s, along.near_square), Difference(far.time_s, along.far_square))
+
+
+def course_change(observer: Observer, near: Difference, far: Difference) -> float:
+    """The root mean square change of course in a second, radians, by gusts that show in these differences."""
+    V = observer.estimate.airspeed_m_s
+    return sqrt(gust(near, far)) / V if V > 0.0 else 0.0
 
 
 def observe(

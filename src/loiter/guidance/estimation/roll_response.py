@@ -15,7 +15,7 @@ again when a bank was measured.
 
 from __future__ import annotations
 
-from math import ceil, exp, log, sqrt
+from math import ceil, exp, inf, log, sqrt
 from typing import Annotated, NamedTuple
 
 from loiter.guidance.vehicle.limits import clip
@@ -114,17 +114,10 @@ def step_of(time_s: float, lag_s: float) -> ModelStep:
     """The step of a model without its limit."""
     if lag_s == 0.0:
         return ModelStep(1.0 - exp(-STEP_S / time_s), 0.0, 0.0, 0.0, 0.0)
-    one, other, dt = Bank(1.0, 0.0), Bank(0.0, 1.0), STEP_S / SUBSTEPS
+    roll, one, other, dt = RollValues(time_s, inf, lag_s), Bank(1.0, 0.0), Bank(0.0, 1.0), STEP_S / SUBSTEPS
     for _ in range(SUBSTEPS):
-        one, other = decayed(one, time_s, lag_s, dt), decayed(other, time_s, lag_s, dt)
+        one, other = roll_after(roll, one, 0.0, dt), roll_after(roll, other, 0.0, dt)
     return ModelStep(1.0 - one.bank_deg, other.bank_deg, -one.rate_deg_s, other.rate_deg_s, lag_s)
-
-
-def decayed(now: Bank, time_s: float, lag_s: float, dt: float) -> Bank:
-    """A bank and its rate after a short step under a command of 0."""
-    half_deg = now.bank_deg + 0.5 * dt * now.rate_deg_s
-    half_deg_s = now.rate_deg_s - 0.5 * dt * (now.bank_deg / time_s + now.rate_deg_s) / lag_s
-    return Bank(now.bank_deg + dt * half_deg_s, now.rate_deg_s - dt * (half_deg / time_s + half_deg_s) / lag_s)
 
 
 class RollSettings(NamedTuple):

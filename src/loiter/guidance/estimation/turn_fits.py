@@ -5,6 +5,8 @@ from __future__ import annotations
 from math import atan2, cos, degrees, exp, nan, radians
 from typing import NamedTuple
 
+from loiter.guidance.estimation.vehicle import VehicleEstimates
+from loiter.guidance.estimation.wind_fit import WindFit
 from loiter.guidance.protocol import State
 from loiter.guidance.vehicle.limits import clip
 from loiter.guidance.vehicle.turning import rate_at_bank
@@ -262,17 +264,11 @@ def first_lead(lead_s: float, fit: RatioFit) -> CourseLead:
 
 
 def add_course(
-    lead: CourseLead,
-    declared_s: float,
-    state: State,
-    turn_ratio: float,
-    wind_east_m_s: float,
-    wind_north_m_s: float,
-    dt: float,
+    lead: CourseLead, declared_s: float, state: State, turn_ratio: float, wind: WindFit, dt: float
 ) -> CourseLead:
-    """The fit with a measurement `dt` seconds after the last, in a wind towards the east and the north."""
+    """The fit with a measurement `dt` seconds after the last, in a wind."""
     c, s = heading_vector(state.heading_deg)
-    east, north = state.velocity_east_m_s - wind_east_m_s, state.velocity_north_m_s - wind_north_m_s
+    east, north = state.velocity_east_m_s - wind.east_m_s, state.velocity_north_m_s - wind.north_m_s
     # Both positive to the right.
     angle = filter_value(lead.angle, atan2(east * s - north * c, east * c + north * s), dt, LEAD_FILTER_S)
     turn_rate = turn_ratio * rate_at_bank(state.bank_deg, state.airspeed_m_s)
@@ -310,19 +306,12 @@ def restart_turns(turns: Turns) -> Turns:
 
 
 def add_turn(
-    turns: Turns,
-    declared: float,
-    declared_s: float,
-    measurement: State,
-    state: State,
-    wind_east_m_s: float,
-    wind_north_m_s: float,
-    dt: float,
+    turns: Turns, declared: VehicleEstimates, measurement: State, state: State, wind: WindFit, dt: float
 ) -> Turns:
     """The fits with a measurement `dt` seconds after the last, and with the same state without its biases."""
-    slow = add_slow_turn(turns.slow, declared, measurement, dt)
+    slow = add_slow_turn(turns.slow, declared.turn_ratio, measurement, dt)
     rate_deg_s = degrees(rate_at_bank(state.bank_deg, state.airspeed_m_s))
-    course_deg = degrees(atan2(state.velocity_east_m_s - wind_east_m_s, state.velocity_north_m_s - wind_north_m_s))
-    quick = add_quick_turn(turns.quick, declared, course_deg, rate_deg_s, dt)
-    lead = add_course(turns.lead, declared_s, state, slow.ratio, wind_east_m_s, wind_north_m_s, dt)
+    course_deg = degrees(atan2(state.velocity_east_m_s - wind.east_m_s, state.velocity_north_m_s - wind.north_m_s))
+    quick = add_quick_turn(turns.quick, declared.turn_ratio, course_deg, rate_deg_s, dt)
+    lead = add_course(turns.lead, declared.course_lead_s, state, slow.ratio, wind, dt)
     return Turns(slow, quick, lead)

@@ -1402,7 +1402,7 @@ if (eq(wind.speed_m_s, 0.0)) {
 return [wrapped(heading_deg), aircraft.airspeed_m_s];
 }
 [east, north] = iter(_velocity(...iter(heading_vector(heading_deg)), aircraft, wind));
-return [wrapped(math.degrees(math.atan2(east, north))), math.hypot(east, north)];
+return [heading_of(east, north), math.hypot(east, north)];
 }
 
 function samples(start, segments, aircraft, wind, step_s) {
