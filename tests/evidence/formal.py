@@ -45,6 +45,14 @@ MUTANTS = [
     ("Wider.v", "rho <= 3 /\\ outer_sq x y <= (3 - rho)", "rho <= 3 /\\ outer_sq x y <= (4 - rho)"),
     ("Wider.v", "list word := [LSL; RSL; LSR; RSR;", "list word := [LSL; LSR; RSR;"),
     ("WiderMargin.v", "| LSL | RSL => y <> 0 \\/ 0 < x", "| LSL | RSL => True"),
+    (
+        "WiderStraight.v",
+        "faster_below_the_axis rho x y : 1 <= rho -> y <= 0 ->",
+        "faster_below_the_axis rho x y : 1 <= rho -> y <= 1 ->",
+    ),
+    ("WiderStraight.v", "-> time_of RSR rho x y <= time_of LSR", "-> time_of RSR rho x y < time_of LSR"),
+    ("WiderStraight.v", "T x0 y0 + t - eps * (s - t) <= T (x s) (y s) + s)", "T x0 y0 + t <= T (x s) (y s) + s / 2)"),
+    ("WiderStraight.v", "with LSL | RSL | LSR | RSR => True", "with RL_left | LSL | RSL | LSR | RSR => True"),
     ("Motion.v", "right_derive x t (1 + u t * y t);", "right_derive x t (2 + u t * y t);"),
 ]
 
