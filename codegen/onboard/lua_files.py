@@ -17,6 +17,7 @@ from loiter.kernel.statuses import Status
 from loiter.kernel.still_air import synthesis
 from loiter.kernel.wind import wind_search
 from loiter.kernel.wind.hold import tightest_radius
+from loiter.mavlink.guiding import hand_over
 from loiter.planning.model import radius_at_bank
 from loiter.version import __version__
 
@@ -76,6 +77,8 @@ def applet(arithmetic: Arithmetic) -> str:
         "HOLD": law_step.HOLD,
         "NOTHING": entry_planner.NOTHING,
         "FIRST_TURN": law_step.FIRST_TURN,
+        "DOWNWIND_SHARE": hand_over.DOWNWIND_SHARE,
+        "LARGEST_SHARE": hand_over.LARGEST_SHARE,
         "GAIN": law_step.GAIN,
         "RESERVE": law_step.RESERVE,
         "SMOOTHING": law_step.SMOOTHING_S,

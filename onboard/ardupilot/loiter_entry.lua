@@ -3433,8 +3433,17 @@ local function expect(now)
 end
 
 -- Command the circle by ArduPlane's own guidance, which ends a command of heading; the result.
-local function reposition()
+local function reposition(is_held)
     local centre, radius_m = flight.centre, flight.radius_m
+    if is_held then
+        -- ArduPlane's own circle lies outside where the plane flies with the wind, by this share of the acceleration that
+        -- is needed there beyond V^2/r: the middle of both is on the circle.
+        local known, omega = flight.model.estimates, 2.0 * math.pi / (param:get("NAVL1_PERIOD") or 0.0)
+        local east, north, V = known.wind_east_m_s, known.wind_north_m_s, known.airspeed_m_s
+        local downwind = V + math.sqrt(east * east + north * north)
+        local error_m = 0.085 * (downwind * downwind - V * V) / (radius_m * omega * omega)
+        radius_m = radius_m - math.min(error_m, 0.3 * radius_m)
+    end
     if (param:get("NAVL1_LIM_BANK") or 0.0) <= 0.0 then
         -- ArduPlane then multiplies the radius by the square of this ratio.
         radius_m = radius_m / (flight.ratio * flight.ratio)
@@ -3446,9 +3455,10 @@ local function reposition()
     })
 end
 
--- End a flight. With `is_ours` the mode is still ours, and the circle is left to ArduPlane.
-local function finish(severity, text, is_ours)
-    if is_ours and reposition() ~= ACCEPTED then
+-- End a flight. With `is_ours` the mode is still ours, and the circle, which may be one that `is_held`, is left to
+-- ArduPlane.
+local function finish(severity, text, is_ours, is_held)
+    if is_ours and reposition(is_held) ~= ACCEPTED then
         text = text .. ", fall-back circle refused"
     end
     BEAT:set(0)
@@ -3591,7 +3601,7 @@ local function guide(now)
     if command.phase ~= 3 or flight.is_commanded then
         flight.command_deg, flight.side, flight.is_commanded = command.bank_deg, command.side, true
         if is_held(now, state) then
-            finish(SEVERITY.NOTICE, "circle held, left to ArduPlane", true)
+            finish(SEVERITY.NOTICE, "circle held, left to ArduPlane", true, true)
             return
         end
         -- On the circle with the bias that the law takes from measured banks: ArduPlane flies the bank that it measures.

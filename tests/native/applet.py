@@ -83,6 +83,7 @@ class World:
             "AIRSPEED_CRUISE": aircraft.airspeed_m_s,
             "RLL2SRV_RMAX": ROLL.rate_deg_s,
             "NAVL1_LIM_BANK": 0.0,
+            "NAVL1_PERIOD": 15.0,
             "RCMAP_ROLL": 1,
             "RCMAP_PITCH": 2,
         }

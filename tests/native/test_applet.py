@@ -3,7 +3,7 @@
 import re
 import shutil
 import subprocess
-from math import atan, degrees
+from math import atan, degrees, pi
 from random import Random
 
 import numpy as np
@@ -20,6 +20,7 @@ from loiter.guidance.entry.loiter_entry import LoiterEntry
 from loiter.guidance.simulators.point_mass import PointMass
 from loiter.kernel.still_air import synthesis
 from loiter.kernel.wind.wind_search import WindProblem, fastest, time_of
+from loiter.mavlink.guiding.hand_over import DOWNWIND_SHARE
 from native import states
 from native.applet import (
     AIRCRAFT,
@@ -29,6 +30,7 @@ from native.applet import (
     LOITER,
     MOST_INSTRUCTIONS,
     PERIOD_S,
+    REPOSITION,
     ROLL,
     WAITING,
     Applet,
@@ -131,9 +133,28 @@ def test_every_binding_is_one_of_ardupilot(path):
     assert set(re.findall(r":(\w+)\(", text)) <= known | OWN
 
 
+@pytest.mark.parametrize("path", sorted(FOLDER.glob("*.lua")), ids=lambda path: path.name)
+def test_the_local_names_are_no_more_than_arduplane_allows(path):
+    """100 in a function, where Lua's own limit, which is tried here behind as many others, is 200."""
+    others = ", ".join(f"_{i}" for i in range(100))
+    LuaRuntime().compile(f"local {others}\n{path.read_text('utf-8')}")
+
+
 def test_every_start_settles(flights):
     assert all(HELD in one.world.said for one in flights)
     assert np.median([one.entered_s - least_s(i) for i, one in zip(STARTS, flights, strict=True)]) < 4.0
+
+
+def test_the_circle_that_is_left_to_arduplane_has_a_radius_that_suits_the_wind(flights):
+    """As `guide` sends it: ArduPlane's own circle lies outside downwind. The fall-back circle has the radius itself."""
+    for i, one in zip(STARTS, flights, strict=True):
+        _, radius_m, wind = scene(i)
+        sent = [command[2] for command in one.world.commands if command[0] == REPOSITION]
+        windy = AIRCRAFT.airspeed_m_s + (0.0 if wind is None else wind.speed_m_s)
+        needed = (windy**2 - AIRCRAFT.airspeed_m_s**2) / radius_m
+        smaller_m = DOWNWIND_SHARE * needed * (15.0 / (2.0 * pi)) ** 2
+        assert sent[0] == round(radius_m)
+        assert sent[-1] == pytest.approx(radius_m - smaller_m, abs=0.8)
 
 
 @pytest.mark.parametrize(("i", "most_s"), [(8, 0.5), (46, 1.0), (54, 1.5)])

@@ -7,24 +7,25 @@ that is tighter than that by a few per cent is left by little, since the vehicle
 
 from __future__ import annotations
 
-from collections import deque
-from math import atan, degrees, hypot, radians, tan
+from math import atan, degrees, hypot, isnan, nan, radians, tan
 from typing import NamedTuple
 
 from loiter.guidance.estimation.vehicle import VehicleEstimates
 from loiter.planning.model import radius_at_bank
 
-# Estimates are averaged over this time, seconds: one of them may be wrong.
-MEAN_S = 2.0
+# A circle is given up once the excess of the tightest radius over its own, as a share of it and beyond the first share,
+# has added up to the second number, seconds: after 8 s at 5.5 %, after 4 s at 8 %, after 2 s at 13 %. A larger excess
+# counts as that, since one estimate may be wrong. It is forgotten where the circle can be held. A circle that is tighter
+# than the tightest by 5 % is left by 2 m in each turn, at 23 to 25 m/s in 12 m/s of wind, and by 5 m at 8 %.
+TOLERATED, GIVEN_UP_S, LARGEST = 0.03, 0.2, 0.13
 
-# A circle counts as impossible to hold if the tightest one is wider by this factor. One that is tighter than the
-# tightest by 8 % is left by 4 to 5 m in each turn, at 23 to 25 m/s in 12 m/s of wind, and by 2 m at 5 %. It also covers
-# an error of 1 m/s in the wind.
-TOO_TIGHT = 1.08
+# The estimates of the first seconds do not count: they still are the first guesses, and a gust may be in them.
+FIRST_S = 5.0
 
-# A turn ratio below this is not believed here: for some seconds after a reversal it is lower than later. One above 1
-# makes no circle possible.
-LEAST_RATIO = 0.9
+# A turn ratio below the first is not believed in still air: for some seconds after a reversal it is lower than later,
+# once the slip has settled. On a circle in wind the bank changes all the time and the slip never settles: the bound is
+# lower by the second for a wind as fast as the aircraft. A ratio above 1 makes no circle possible.
+LEAST_RATIO, UNSETTLED = 0.9, 0.2
 
 
 class Tightest(NamedTuple):
@@ -46,13 +47,15 @@ class Tightest(NamedTuple):
         """The radius of the tightest circle that can be held."""
         return radius_at_bank(self.airspeed_m_s + self.wind_m_s, self.limit_deg) / self.turn_ratio
 
+    def excess(self, radius_m: float) -> float:
+        """By which share of the radius of a circle the tightest one is wider."""
+        return self.radius_m / radius_m - 1.0
+
     def problem(self, radius_m: float) -> str:
-        """Why a circle cannot be held, and which could be; empty if it can, or hardly not."""
+        """Why a circle that is too tight cannot be held, and which could be."""
         V, w = self.airspeed_m_s, self.wind_m_s
         if w >= V:
             return f"in a wind of {w:.1f} m/s an aircraft of {V:.1f} m/s can hold no circle"
-        if self.radius_m <= TOO_TIGHT * radius_m:
-            return ""
         bank_deg = degrees(atan(self.radius_m / radius_m * tan(radians(self.limit_deg))))
         return (
             f"in a wind of {w:.1f} m/s, at {V:.1f} m/s and {self.limit_deg:g} degrees of bank, the tightest circle has "
@@ -61,22 +64,23 @@ class Tightest(NamedTuple):
 
 
 class HoldabilityWatch:
-    """The mean of the estimates over the last `MEAN_S` seconds, and what is wrong with the circle in that wind."""
+    """How long and by how much the circle has been tighter than the tightest one."""
 
     def __init__(self, radius_m: float, limit_deg: float) -> None:
         self._radius_m, self._limit_deg = radius_m, limit_deg
-        self._values: deque[tuple[float, Tightest]] = deque()
+        self._began = self._last = nan
+        self._sum_s = 0.0
 
     def problem(self, estimates: VehicleEstimates, now: float) -> str:
-        """Process estimates; returns why the circle cannot be held, empty if it can or is watched for a short time."""
-        k = min(max(estimates.turn_ratio, LEAST_RATIO), 1.0)
-        wind, V = (estimates.wind_east_m_s, estimates.wind_north_m_s), estimates.turn_airspeed_m_s
-        self._values.append((now, Tightest(*wind, V, k, self._limit_deg)))
-        if now - self._values[0][0] < MEAN_S:
+        """Process estimates; returns why the circle cannot be held, empty if it can or this is not certain yet."""
+        if isnan(self._began):
+            self._began = self._last = now
+        dt, self._last = now - self._last, now
+        if now < self._began + FIRST_S:
             return ""
-        while now - self._values[0][0] > MEAN_S:
-            self._values.popleft()
-        values = [value for _, value in self._values]
-        mean = Tightest(*(sum(column) / len(values) for column in zip(*values, strict=True)))
-        # The mean still contains what was believed before: what is needed is that of the last estimates.
-        return values[-1].problem(self._radius_m) if mean.problem(self._radius_m) else ""
+        wind, V = (estimates.wind_east_m_s, estimates.wind_north_m_s), estimates.turn_airspeed_m_s
+        k = min(max(estimates.turn_ratio, LEAST_RATIO - UNSETTLED * min(hypot(*wind) / V, 1.0)), 1.0)
+        tightest = Tightest(*wind, V, k, self._limit_deg)
+        excess = LARGEST if hypot(*wind) >= V else min(tightest.excess(self._radius_m), LARGEST)
+        self._sum_s = max(self._sum_s + (excess - TOLERATED) * dt, 0.0)
+        return tightest.problem(self._radius_m) if excess > TOLERATED and self._sum_s >= GIVEN_UP_S else ""
