@@ -15,8 +15,8 @@ from loiter.planning.model import radius_at_bank
 
 # A circle is given up once the excess of the tightest radius over its own, as a share of it and beyond the first share,
 # has added up to the second number, seconds: after 8 s at 5.5 %, after 4 s at 8 %, after 2 s at 13 %. A larger excess
-# counts as that, since one estimate may be wrong. It is forgotten where the circle can be held. A circle that is tighter
-# than the tightest by 5 % is left by 2 m in each turn, at 23 to 25 m/s in 12 m/s of wind, and by 5 m at 8 %.
+# counts as that, since one estimate may be wrong. It is forgotten where the circle can be held. A circle that is too
+# tight by 5 % is left by 2 m in each turn, at 23 to 25 m/s in 12 m/s of wind, and by 5 m at 8 %.
 TOLERATED, GIVEN_UP_S, LARGEST = 0.03, 0.2, 0.13
 
 # The estimates of the first seconds do not count: they still are the first guesses, and a gust may be in them.
