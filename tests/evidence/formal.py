@@ -53,6 +53,10 @@ MUTANTS = [
     ("WiderStraight.v", "-> time_of RSR rho x y <= time_of LSR", "-> time_of RSR rho x y < time_of LSR"),
     ("WiderStraight.v", "T x0 y0 + t - eps * (s - t) <= T (x s) (y s) + s)", "T x0 y0 + t <= T (x s) (y s) + s / 2)"),
     ("WiderStraight.v", "with LSL | RSL | LSR | RSR => True", "with RL_left | LSL | RSL | LSR | RSR => True"),
+    ("WiderCrossing.v", "R := (k * k - q) / 4.", "R := (k * k - q) / 3."),
+    ("WiderCrossing.v", "q + y - 1 - x * (q + crossing_y k q - 1)", "q + y - 1 - x * (q + crossing_y k q)"),
+    ("WiderCrossing.v", "-> 0 <= margin_of w rho x y ->", "-> -1 <= margin_of w rho x y ->"),
+    ("WiderCrossing.v", "rho + 3) /\\ (outer_sq x y <> (rho + 1) * (rho + 1) \\/ x < 0)", "rho + 3)"),
     ("Motion.v", "right_derive x t (1 + u t * y t);", "right_derive x t (2 + u t * y t);"),
 ]
 
