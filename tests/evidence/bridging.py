@@ -36,7 +36,8 @@ NO_TURN = arb(2) ** -140
 # How far from the target a path ends at most, in units, and one that is LRL: theorem 5 of docs/bridging.md.
 LIMIT, LIMIT_OF_LRL = 256.0, 2048.0
 
-# How late an answer is at most, in units, where LRL does not exist: theorem 6. No later one is known elsewhere.
+# How late an answer is at most, in units, where LRL does not exist: theorem 6. No later one is known elsewhere, though
+# 1024 units are proved there.
 LATEST = 256.0
 
 

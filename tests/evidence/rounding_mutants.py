@@ -23,6 +23,7 @@ from evidence import bridging
 from loiter.kernel import angles, exact
 from loiter.kernel.still_air import extremals
 from loiter.kernel.words import Word, mirrored
+from loiter.verify.rounding_bound import units_at
 
 SCOPE: dict[ModuleType, tuple[str, ...]] = {
     exact: ("two_sum", "split", "two_product", "beyond_circles", "square_beyond"),
@@ -63,10 +64,11 @@ class Mutant(NamedTuple):
 
 
 class State(NamedTuple):
-    """A case, and its least time in 154 digits."""
+    """A case, its least time in 154 digits, and by how many units its answer may be later: theorem 6."""
 
     case: bridging.Case
     least: Any
+    latest: float
 
 
 def mutants() -> Iterator[Mutant]:
@@ -130,7 +132,8 @@ def states(count: int, seed: int) -> list[State]:
     kept = []
     for case in found:
         side = case.turn if case.turn else (-1 if case.y < 0.0 else 1)
-        kept.append(State(case, bridging.least(case.x, case.y, case.R, side)[1]))
+        latest = units_at(case.x, side * case.y, case.R).epsilon
+        kept.append(State(case, bridging.least(case.x, case.y, case.R, side)[1], latest))
     return kept
 
 
@@ -146,7 +149,7 @@ def refusal(mutant: Mutant, known: list[State]) -> str:
             is_lrl = answer.word in LRL
             if not miss <= (bridging.LIMIT_OF_LRL if is_lrl else bridging.LIMIT):
                 return f"misses by {miss:.3g} units at {state.case}"
-            if not late <= bridging.LATEST:
+            if not late <= state.latest:
                 return f"is late by {late:.3g} units at {state.case}"
             if not apart <= APART:
                 return f"has a time and durations that differ by {apart:.3g} units at {state.case}"

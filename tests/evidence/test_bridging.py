@@ -1,12 +1,13 @@
 """docs/bridging.md: paths in doubles end at the target, and answers that were once late are late no longer."""
 
+from math import cos, sin
 from random import Random
 
 import pytest
 
 pytest.importorskip("flint")
 
-from evidence import bridging, rounding_mutants
+from evidence import bridging, lrl_rounding, rounding_mutants
 from evidence.bridging import Case
 from evidence.changing import changed
 from loiter.kernel import exact
@@ -63,6 +64,44 @@ def test_mutants_that_lose_digits_are_refused():
     assert len(mutants) > 60
     for mutant in mutants[::8]:
         assert rounding_mutants.refusal(mutant, known), mutant.text
+
+
+def test_the_terms_of_lemma_12_are_within_its_table():
+    found = lrl_rounding.terms(lrl_rounding.geometry(200))
+    assert all(values.max() <= lrl_rounding.BOUNDS[name] for name, values in found.items())
+    assert sum(lrl_rounding.BOUNDS.values()) <= lrl_rounding.LATEST
+    assert lrl_rounding.identity()
+
+
+def test_lsr_from_below_the_axis_is_never_the_fastest():
+    """Lemma 14."""
+    random, seen = Random(2), 0
+    while seen < 300:
+        R = random.choice((2.0 + random.random() * 1e-6, random.uniform(2.0, 6.0)))
+        x, y = random.uniform(-3.0, 3.0), -random.uniform(0.0, 2.0)
+        times = list(bridging.exact_times(bridging.arb(x), bridging.arb(y), bridging.arb(R)))
+        of_lsr = [time for word, time in times if word == "LSR"]
+        if of_lsr:
+            seen += 1
+            assert min(time for word, time in times if word != "LSR") < of_lsr[0]
+
+
+def test_lr_with_the_left_crossing_is_no_faster_than_rsr():
+    """Lemma 15."""
+    random, seen = Random(2), 0
+    while seen < 300:
+        R, turn = 3.0 + 10.0 ** random.uniform(-12.0, 3.0), random.uniform(-3.2, 3.2)
+        r = (R - 3.0) + random.choice((0.0, 1e-12, random.random()))
+        x, y = r * sin(turn), -1.0 - r * cos(turn)
+        if not (y < 0.0 and x * x + (y - 1.0) ** 2 < (R - 1.0) ** 2):
+            continue
+        times = list(bridging.exact_times(bridging.arb(x), bridging.arb(y), bridging.arb(R)))
+        of_lr = [time for word, time in times if word == "LR"]
+        of_rsr = [time for word, time in times if word == "RSR"]
+        if of_lr and of_rsr:
+            seen += 1
+            # The left crossing is the first.
+            assert of_rsr[0] < of_lr[0]
 
 
 def test_the_exact_optimum_is_that_of_the_paper():

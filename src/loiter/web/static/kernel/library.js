@@ -3808,9 +3808,6 @@ return RoundingBound(null, null, NOT_PLANNED);
 }
 [x, y, R, _, _] = iter(problem.reduced());
 found = units_at(x, mul(item(SIDES, maneuver.turn), y), R);
-if (lt(found.epsilon, 0.0)) {
-return RoundingBound(null, null, NOT_COVERED);
-}
 unit = mul(UNIT, scale_of(x, y, R));
 converted = mul(OF_SECONDS, maneuver.duration_s);
 delta_m = add(mul(mul(found.delta, unit), problem.aircraft.turn_radius_m), mul(converted, problem.aircraft.airspeed_m_s));
@@ -4915,24 +4912,14 @@ return best.maneuver;
 }
 
 function units_at(x, y, R) {
-let D, gap, no_fold, scale, start, v;
+let gap, is_lrl, scale, start, v;
 [start, scale] = iter([kernel.start_at(x, y, R, 0.0), scale_of(x, y, R)]);
-no_fold = mul(mul(NO_FOLD, scale), scale);
-if (truth(is_passed_over(start, no_fold))) {
-return Units(MISS, -1.0);
-}
-if ((lt(add(1.0, math.sqrt(3.0)), R) || gt(start.fold, no_fold))) {
+if ((lt(add(1.0, math.sqrt(3.0)), R) || gt(start.fold, mul(mul(NO_FOLD, scale), scale)))) {
 return Units(MISS, (le(R, WIDE) ? rounding_bound_LATE : LATE_BEYOND));
 }
 [gap, v] = iter(kernel.lrl_quadratic(start));
-D = sub(mul(gap, gap), mul(3.0, v));
-if (lt(abs(D), mul(mul(APART, gap), gap))) {
-return Units(MISS_OF_LRL, -1.0);
-}
-if (lt(D, 0.0)) {
-return Units(MISS, rounding_bound_LATE);
-}
-return Units(MISS_OF_LRL, mul(LATE_OF_LRL, max(1.0, div(mul(0.26, gap), math.sqrt(D)))));
+is_lrl = ge(sub(mul(gap, gap), mul(3.0, v)), mul(mul(neg(OF_D), gap), gap));
+return (truth(is_lrl) ? Units(MISS_OF_LRL, LATE_OF_LRL) : Units(MISS, rounding_bound_LATE));
 }
 
 function scale_of(x, y, R) {
@@ -5724,13 +5711,6 @@ return ((best == null) ? [] : [best]);
 
 function _fastest_alone(problem) {
 return [kernel.wind_search_fastest(problem)];
-}
-
-function is_passed_over(start, no_fold) {
-let R, beside_lsr, x, y;
-[x, y, R] = iter([start.x, start.y, start.R]);
-beside_lsr = (ge(R, 2.0) && (lt(-2.0, y) && lt(y, 0.0)) && lt(abs(add(mul(x, x), mul(y, add(y, 2.0)))), BESIDE_LSR));
-return or(beside_lsr, () => (ge(R, 3.0) && le(abs(start.fold), no_fold)));
 }
 
 const Units = struct(class extends Tuple {
@@ -7383,7 +7363,6 @@ const _MESSAGES = new Map([[kernel.Status.OK, "solved"], [kernel.Status.NOT_FINI
 const WIND_TIE_TOLERANCE = 1e-12;
 const NOT_CLAIMED = "the maneuver is not proved to be optimal";
 const NOT_PLANNED = "not proved: another maneuver, as fast up to rounding, is the plan";
-const NOT_COVERED = "not proved: theorem 6 of docs/bridging.md does not cover this state";
 const UNIT = pow(2.0, -52);
 const OF_SECONDS = pow(2.0, -50);
 const BY_THEOREMS = "docs/bridging.md, theorems 5 and 6, for the reduced state";
@@ -7419,9 +7398,9 @@ const MISS = 256.0;
 const WIDE = pow(2.0, 44);
 const rounding_bound_LATE = 256.0;
 const LATE_BEYOND = 1024.0;
-const APART = pow(2.0, -39);
+const OF_D = pow(2.0, -39);
 const MISS_OF_LRL = 2048.0;
-const LATE_OF_LRL = 4096.0;
+const LATE_OF_LRL = 1024.0;
 const STRAIGHTENS = 0.85;
 const RESOLVED = 0.001;
 const AT_CORNER = "T has a corner: its one-sided derivatives";
@@ -7450,7 +7429,6 @@ const HALVINGS = 14;
 const TANGENT_STEPS = 5;
 const clear_entry_LETTERS = new Map(list(iter(items_(CONTROLS))).map((one) => iter(one)).map(([letter, control]) => [float(control), letter]));
 const SCANNED_DIRECTIONS = 720;
-const BESIDE_LSR = pow(2.0, -48);
 const STEPS_IN_STILL_AIR = tuple(list(iter(range(4, 34))).map((k) => pow(2.0, neg(k))));
 const STEPS_IN_WIND = [pow(2.0, -6), pow(2.0, -9), pow(2.0, -12), pow(2.0, -15)];
 const CLOSING = 8.0;
