@@ -361,7 +361,7 @@ def test_a_certificate_is_frozen_and_reads_as_a_table():
     assert lines[0] == "Certificate of LRL, clockwise: valid."
     assert lines[1] == "Optimal, up to rounding, by theorem 1 of docs/proof.md."
     assert lines[2].startswith(
-        "In doubles: it ends within 1.3e-12 m of the point of joining, and takes at most 2.6e-12 s"
+        "In doubles: it ends within 1.3e-12 m of the point of joining, and takes at most 6.5e-13 s"
     )
     assert lines[3] == "lambda = 0.605670, psi = (0.058455, 0.998290) at the start."
     assert sum(line.endswith("holds") for line in lines) == len(certificate.residuals)
