@@ -39,6 +39,21 @@ Proof.
   field. split; intros zero; apply nonzero; rewrite zero; ring.
 Qed.
 
+(** Two vectors of the same length that differ do not point the same way. *)
+Lemma apart_off_cut ax ay bx by_ : ax * ax + ay * ay = bx * bx + by_ * by_ -> 0 < ax * ax + ay * ay -> ~ (ax = bx /\ ay = by_) ->
+  off_cut (- (ax * bx + ay * by_)) (- (ax * by_ - ay * bx)).
+Proof.
+  intros equal pos apart. apply off_cut_intro. destruct (Req_dec (ax * by_ - ay * bx) 0) as [zero|differ]; [left|right; lra].
+  set (q := ax * ax + ay * ay) in *. set (D := ax * bx + ay * by_).
+  assert (sizes : D * D + (ax * by_ - ay * bx) * (ax * by_ - ay * bx) = q * q).
+  { rewrite equal at 2. unfold D, q. ring. }
+  rewrite zero in sizes. assert (either : (D - q) * (D + q) = 0) by (ring_simplify; lra).
+  destruct (Rmult_integral _ _ either) as [aligned|opposite]; [exfalso|lra].
+  apply apart. assert (none : (ax - bx) * (ax - bx) + (ay - by_) * (ay - by_) = 0).
+  { transitivity (q + q - 2 * D); [|lra]. rewrite equal at 2. unfold D, q. ring. }
+  destruct (Rplus_sqr_eq_0 _ _ none). lra.
+Qed.
+
 (** ** Right to a crossing, then left to the highest or lowest point of a circle about [(0, -1)] *)
 
 (** The circle has the radius [k], the first arc about [(0, 1)] the square [q] of its radius; [e] is the side of the
@@ -100,16 +115,8 @@ Proof.
   pose proof (rd_minus _ _ _ _ _ ry_ (rd_const 1 t)) as ry_1. simpl in ry_1.
   pose proof (rd_plus _ _ _ _ _ ry_ (rd_const 1 t)) as ry_2. simpl in ry_2.
   assert (first : off_cut (- (x t * x1 t + (y t - 1) * (y1 t - 1))) (- (x t * (y1 t - 1) - (y t - 1) * x1 t))).
-  { apply off_cut_intro. destruct (Req_dec (x t * (y1 t - 1) - (y t - 1) * x1 t) 0) as [zero|differ]; [|right; lra].
-    left. set (D := x t * x1 t + (y t - 1) * (y1 t - 1)).
-    assert (start : x t * x t + (y t - 1) * (y t - 1) = q) by reflexivity.
-    assert (sizes : D * D + (x t * (y1 t - 1) - (y t - 1) * x1 t) * (x t * (y1 t - 1) - (y t - 1) * x1 t) = q * q).
-    { rewrite <- inner at 2. rewrite <- start at 1. unfold D. ring. }
-    rewrite zero in sizes. assert (either : (D - q) * (D + q) = 0) by (ring_simplify; lra).
-    destruct (Rmult_integral _ _ either) as [aligned|opposite]; [exfalso|lra].
-    apply apart. assert (none : (x t - x1 t) * (x t - x1 t) + (y t - y1 t) * (y t - y1 t) = 0).
-    { transitivity (q + q - 2 * D); [|lra]. rewrite <- inner at 2. rewrite <- start at 1. unfold D. ring. }
-    destruct (Rplus_sqr_eq_0 _ _ none). lra. }
+  { assert (start : x t * x t + (y t - 1) * (y t - 1) = q) by reflexivity.
+    apply apart_off_cut; [lra|lra|]. intros [ex ey]. apply apart. lra. }
   assert (second : off_cut (- (0 * x1 t + (d * k - 1 + 1) * (y1 t + 1))) (- (0 * (y1 t + 1) - (d * k - 1 + 1) * x1 t))).
   { apply off_cut_intro. right. destruct end_ as [-> | ->]; nra. }
   pose proof (rd_rotation x (fun s => y s - 1) x1 (fun s => y1 s - 1) t _ _ _ _ rx ry1 rx_ ry_1 first) as r1.

@@ -57,6 +57,10 @@ MUTANTS = [
     ("WiderCrossing.v", "q + y - 1 - x * (q + crossing_y k q - 1)", "q + y - 1 - x * (q + crossing_y k q)"),
     ("WiderCrossing.v", "-> 0 <= margin_of w rho x y ->", "-> -1 <= margin_of w rho x y ->"),
     ("WiderCrossing.v", "rho + 3) /\\ (outer_sq x y <> (rho + 1) * (rho + 1) \\/ x < 0)", "rho + 3)"),
+    ("WiderLRL.v", "(2 * lrl_a rho x y / lrl_s rho x y + 1) / lrl_m", "(lrl_a rho x y / lrl_s rho x y + 1) / lrl_m"),
+    ("WiderLRL.v", "-> 0 <= lrl_margin rho x y ->", "-> -1 <= lrl_margin rho x y ->"),
+    ("WiderLRL.v", "let s' := p * (2 * s + d) / (4 * g)", "let s' := p * (s + d) / (4 * g)"),
+    ("WiderLRL.v", "  0 < lrl_under_root rho x y /\\ lrl_s", "  0 <= lrl_under_root rho x y /\\ lrl_s"),
     ("Motion.v", "right_derive x t (1 + u t * y t);", "right_derive x t (2 + u t * y t);"),
 ]
 
