@@ -12,7 +12,7 @@ Definition lrl_a (rho x y : R) : R := (lrl_s rho x y - lrl_d rho x y) / 2.
 Definition lrl_b (rho x y : R) : R := (lrl_s rho x y + lrl_d rho x y) / 2.
 
 (** The switching function, up to a positive factor. *)
-Definition lrl_margin (rho x y : R) : R :=
+Definition three_arcs_margin (rho x y : R) : R :=
   outer_sq x y - y - 1 - x * (2 * lrl_a rho x y / lrl_s rho x y + 1) / lrl_m rho x y.
 
 (** The three rotations together: with [d] a quarter of the difference of two squared radii, a polynomial identity. *)
@@ -52,7 +52,7 @@ Qed.
 Lemma rd_lrl_time rho x y t u : 1 <= rho -> moves x y t u ->
   0 < lrl_under_root rho (x t) (y t) -> lrl_s rho (x t) (y t) < 2 ->
   ~ (x t = lrl_m rho (x t) (y t) * lrl_a rho (x t) (y t) /\ y t = lrl_a rho (x t) (y t)) ->
-  right_derive (fun s => lrl_time rho (x s) (y s)) t (-1 + (1 - u) * lrl_margin rho (x t) (y t) / outer_sq (x t) (y t)).
+  right_derive (fun s => lrl_time rho (x s) (y s)) t (-1 + (1 - u) * three_arcs_margin rho (x t) (y t) / outer_sq (x t) (y t)).
 Proof.
   intros wide mv root narrow apart. pose proof (rd_outer_sq _ _ _ _ mv) as rP. destruct mv as [ub [rx ry]].
   set (p := 2 * (1 - u) * x t) in *.
@@ -164,7 +164,7 @@ Proof.
   pose proof (lrl_rates (m t) (d t) p mpos) as sum. cbv zeta in sum. rewrite sm in sum. rewrite sg in sum.
   fold s' in sum. fold m' in sum. fold a' b' in sum. rewrite <- at_, <- bt in sum.
   specialize (sum ltac:(lra) pos1 pos2 pos3).
-  unfold lrl_margin. fold P. change (lrl_m rho (x t) (y t)) with (m t). change (lrl_a rho (x t) (y t)) with (a t).
+  unfold three_arcs_margin. fold P. change (lrl_m rho (x t) (y t)) with (m t). change (lrl_a rho (x t) (y t)) with (a t).
   change (lrl_s rho (x t) (y t)) with (s_ t).
   transitivity ((x t * - (u * x t) - (y t + 1) * (1 + u * y t)) / P
     + - (p * (2 * a t / s_ t + 1) / (2 * m t)) / (m t * a t * (m t * a t) + (a t + 1) * (a t + 1))).
@@ -179,16 +179,16 @@ Qed.
 Definition lrl_inside (rho x y : R) : Prop :=
   0 < lrl_under_root rho x y /\ lrl_s rho x y < 2 /\ ~ (x = lrl_m rho x y * lrl_a rho x y /\ y = lrl_a rho x y).
 
-Theorem lrl_margin_holds rho x y : 1 <= rho -> exists_at LRL rho x y -> lrl_inside rho x y -> 0 <= lrl_margin rho x y ->
+Theorem lrl_margin_holds rho x y : 1 <= rho -> exists_at LRL rho x y -> lrl_inside rho x y -> 0 <= three_arcs_margin rho x y ->
   margin_holds (time_of LRL rho) x y.
 Proof.
-  intros wide _ (root & narrow & apart) nonneg. set (M := lrl_margin rho x y / outer_sq x y).
+  intros wide _ (root & narrow & apart) nonneg. set (M := three_arcs_margin rho x y / outer_sq x y).
   assert (0 <= outer_sq x y).
   { unfold outer_sq. pose proof (Rle_0_sqr x). pose proof (Rle_0_sqr (y + 1)). unfold Rsqr in *. lra. }
   assert (0 <= M).
   { unfold M, Rdiv. destruct (Req_dec (outer_sq x y) 0) as [-> | differ]; [rewrite Rinv_0; lra|].
     apply Rmult_le_pos; [exact nonneg|left; apply Rinv_0_lt_compat; lra]. }
   exists (1 - M), M. split; [rewrite Rabs_right by lra; ring|]. intros X Y t u <- <- mv.
-  replace (- (1 - M + u * M)) with (-1 + (1 - u) * lrl_margin rho (X t) (Y t) / outer_sq (X t) (Y t)) by (unfold M, Rdiv; ring).
+  replace (- (1 - M + u * M)) with (-1 + (1 - u) * three_arcs_margin rho (X t) (Y t) / outer_sq (X t) (Y t)) by (unfold M, Rdiv; ring).
   exact (rd_lrl_time rho X Y t u wide mv root narrow apart).
 Qed.

@@ -58,7 +58,7 @@ MUTANTS = [
     ("WiderCrossing.v", "-> 0 <= margin_of w rho x y ->", "-> -1 <= margin_of w rho x y ->"),
     ("WiderCrossing.v", "rho + 3) /\\ (outer_sq x y <> (rho + 1) * (rho + 1) \\/ x < 0)", "rho + 3)"),
     ("WiderLRL.v", "(2 * lrl_a rho x y / lrl_s rho x y + 1) / lrl_m", "(lrl_a rho x y / lrl_s rho x y + 1) / lrl_m"),
-    ("WiderLRL.v", "-> 0 <= lrl_margin rho x y ->", "-> -1 <= lrl_margin rho x y ->"),
+    ("WiderLRL.v", "-> 0 <= three_arcs_margin rho x y ->", "-> -1 <= three_arcs_margin rho x y ->"),
     ("WiderLRL.v", "let s' := p * (2 * s + d) / (4 * g)", "let s' := p * (s + d) / (4 * g)"),
     ("WiderLRL.v", "  0 < lrl_under_root rho x y /\\ lrl_s", "  0 <= lrl_under_root rho x y /\\ lrl_s"),
     ("Motion.v", "right_derive x t (1 + u t * y t);", "right_derive x t (2 + u t * y t);"),
@@ -122,6 +122,19 @@ def least_of_words(known, choices, rho, x, y):
         if holds(known, condition, rho, x, y)
     ]
     return min(times)
+
+
+def margin(known, word, rho, x, y):
+    """The margin that the theorems of WiderMargin.v, WiderCrossing.v and WiderLRL.v ask to be no less than 0."""
+    side = {"left": -1.0, "right": 1.0}.get(word.partition("_")[2])
+    if word == "LRL":
+        return evaluate(known, "three_arcs_margin", rho, x, y)
+    if side is None:
+        end = {"L": -1.0, "R": 1.0}[word[2]]
+        return evaluate(known, "axis_margin", end, x, y if word[0] == "L" else -y)
+    if word.startswith("RL"):
+        return evaluate(known, "crossing_margin", side, rho + 1.0, x, y)
+    return evaluate(known, "crossing_margin", side, rho - 1.0, x, -y)
 
 
 def least_time(known, x, y):

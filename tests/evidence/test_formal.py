@@ -89,17 +89,27 @@ def test_kernel_computes_the_least_time_clockwise():
     ],
 )
 def test_kernel_computes_the_least_of_the_words(radius, fastest):
-    """The words of Wider.v, read and evaluated as they stand there, onto wider circles; most states are within them."""
+    """The words of Wider.v, read and evaluated as they stand there, onto wider circles; most states are within them.
+
+    No margin is negative where its word is the fastest, which is not proved; where it is not, RL has negative ones.
+    """
     definitions, words = formal.definitions(), formal.words()
     states = np.random.default_rng(5).uniform(-2.0 - radius, 2.0 + radius, (1000, 2))
     states[800:] *= 0.4  # where LRL and LR begin to exist
-    wins = {}
+    wins, others = {}, 0
     for x, y in states:
         time, word = formal.least_of_words(definitions, words, radius, x, y)
         wins[word] = wins.get(word, 0) + 1
         assert time == pytest.approx(float(loiter.min_time(x, y, radius, turn="cw")), abs=1e-11), (x, y)
+        assert formal.margin(definitions, word, radius, x, y) >= 0.0
+        others += (
+            word != "RL_left"
+            and formal.holds(definitions, "rl_exists", radius, x, y)
+            and (formal.margin(definitions, "RL_left", radius, x, y) < 0.0)
+        )
     assert sorted(wins) == fastest.split()
     assert min(wins.values()) > 20
+    assert others > 20
 
 
 @pytest.mark.skipif(shutil.which("coqc") is None, reason="needs Coq (docs/formal.md)")
