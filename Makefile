@@ -71,9 +71,10 @@ check: lint
 test: .venv/dev.stamp .venv/node.stamp /usr/bin/chromium-headless-shell
 	@$(MAKE) --no-print-directory -j2 lint all-tests
 
+# Twice as many processes as cores: half the tests wait, for a browser, a server or a flight in real time.
 # Hypothesis draws the same examples each time, so that a release does not fail by chance; make check draws new ones.
 all-tests:
-	$(BIN)/pytest -n 3 --hypothesis-profile=ci
+	$(BIN)/pytest -n 4 --hypothesis-profile=ci
 
 bench: .venv/dev.stamp
 	$(BIN)/python -m benchmarks --rows $(ROWS)

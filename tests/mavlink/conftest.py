@@ -4,14 +4,13 @@ import signal
 
 import pytest
 
-from mavlink.vehicle import WAITS
+from mavlink.vehicle import shorten_waits
 
 
 @pytest.fixture(autouse=True)
 def quick(request, monkeypatch):
     if "real_time" not in request.fixturenames:
-        for (module, name), seconds in WAITS.items():
-            monkeypatch.setattr(module, name, seconds / 10.0)
+        shorten_waits(monkeypatch)
 
 
 @pytest.fixture
