@@ -75,9 +75,6 @@ def test_each_script_names_what_can_follow_and_is_read_by_its_shell(shell, capsy
 
 
 @pytest.mark.parametrize("arguments", [["tcsh"], []])
-def test_another_shell_is_refused_in_one_sentence(capsys, arguments):
-    assert main(["completion", *arguments]) == 2
-    out, err = capsys.readouterr()
-    assert out == ""
-    [line] = err.splitlines()
+def test_another_shell_is_refused_in_one_sentence(refusal, arguments):
+    line = refusal(["completion", *arguments])
     assert all(word in line for word in arguments)

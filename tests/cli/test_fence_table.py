@@ -72,10 +72,10 @@ def test_a_plan_in_metres_is_checked(fence, capsys):
         (f"{FIELD}sea,in,900,0,20\n", "has the inclusion zones 'field' and 'sea' with no common point to fly in"),
     ],
 )
-def test_a_table_that_cannot_be_used_gets_a_sentence(fence, capsys, rows, sentence):
+def test_a_table_that_cannot_be_used_gets_a_sentence(fence, refusal, rows, sentence):
     path = fence(rows)
-    assert main(f"plan {SCENE} --fence {path}".split()) == 2
-    assert capsys.readouterr().err.startswith(f"loiter: --fence {sentence.format(path=repr(str(path)))}")
+    why = sentence.format(path=repr(str(path)))
+    assert refusal(f"plan {SCENE} --fence {path}").startswith(f"loiter: --fence {why}")
 
 
 @pytest.mark.parametrize(
@@ -85,19 +85,18 @@ def test_a_table_that_cannot_be_used_gets_a_sentence(fence, capsys, rows, senten
         ("mast,out,-400,100,60\n", "--pose is inside the zone 'mast': a plan must begin outside"),
     ],
 )
-def test_a_start_on_the_wrong_side_gets_a_sentence(fence, capsys, rows, sentence):
+def test_a_start_on_the_wrong_side_gets_a_sentence(fence, refusal, rows, sentence):
     for command in ("plan", "leg"):
         towards = " --exit-to 250 0" if command == "leg" else ""
-        assert main(f"{command} {SCENE}{towards} --fence {fence(rows)}".split()) == 2
-        assert capsys.readouterr().err == f"loiter: {sentence}\n"
+        assert refusal(f"{command} {SCENE}{towards} --fence {fence(rows)}") == f"loiter: {sentence}"
 
 
-def test_metres_and_degrees_are_not_mixed(fence, tmp_path, capsys):
+def test_metres_and_degrees_are_not_mixed(fence, tmp_path, refusal):
     path = fence(FIELD)
     placed = "--pose-lla 47.1 8.2 90 --orbit-lla 47.11 8.23 120 --airspeed 18 --bank 35"
     for command in (f"plan {placed}", "guide --connect udpin:127.0.0.1:14999 --orbit-lla 47.11 8.23 120 --dry-run"):
-        assert main(f"{command} --fence {path}".split()) == 2
-        assert "--fence is a table in local metres, which goes with --pose and --orbit" in capsys.readouterr().err
+        line = refusal(f"{command} --fence {path}")
+        assert "--fence is a table in local metres, which goes with --pose and --orbit" in line
     other = tmp_path / "other.csv"
     other.write_text("47.0 8.0\n")
     with pytest.raises(InvalidArgument, match=r"its first line is '47\.0 8\.0': it must be zone,rule,east_m"):

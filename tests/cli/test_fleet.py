@@ -8,7 +8,6 @@ import pytest
 from PIL import Image
 
 from loiter import Aircraft, Orbit, Pose, fleet
-from loiter.cli.app import main
 from loiter.geo import LocalFrame
 from loiter.io import read_mission
 from loiter.plot import fleet as drawn_fleet
@@ -114,13 +113,10 @@ def test_pictures(table, shown, monkeypatch):
         ("airspeed_m_s,east_m,north_m,heading_deg\n9,1,2,3\n", "it has a column airspeed_m_s, but all aircraft of a"),
     ],
 )
-def test_a_bad_table_gets_a_sentence(table, capsys, rows, problem):
+def test_a_bad_table_gets_a_sentence(table, refusal, rows, problem):
     if rows is not None:
         table(rows)
-    assert main(["fleet", "fleet.csv", *CIRCLE.split()]) == 2
-    out, err = capsys.readouterr()
-    assert out == ""
-    assert err.startswith(f"loiter: FILE is 'fleet.csv': {problem}")
+    assert refusal(["fleet", "fleet.csv", *CIRCLE.split()]).startswith(f"loiter: FILE is 'fleet.csv': {problem}")
 
 
 @pytest.mark.parametrize(
@@ -136,16 +132,12 @@ def test_a_bad_table_gets_a_sentence(table, capsys, rows, problem):
         (f"{CIRCLE} --layer-height 0", "--layer-height is 0.0: it must be a positive"),
     ],
 )
-def test_bad_input_gets_a_sentence(table, capsys, options, sentence):
+def test_bad_input_gets_a_sentence(table, refusal, options, sentence):
     table()
-    assert main(["fleet", "fleet.csv", *options.split()]) == 2
-    out, err = capsys.readouterr()
-    assert out == ""
-    assert err.startswith(f"loiter: {sentence}")
+    assert refusal(["fleet", "fleet.csv", *options.split()]).startswith(f"loiter: {sentence}")
     assert {path.name for path in Path().iterdir()} <= {"fleet.csv"}
 
 
-def test_more_than_a_hundred_are_refused(table, capsys):
+def test_more_than_a_hundred_are_refused(table, refusal):
     table("east_m,north_m,heading_deg\n" + "".join(f"{i},500,0\n" for i in range(101)))
-    assert main(["fleet", "fleet.csv", *CIRCLE.split()]) == 2
-    assert capsys.readouterr().err == "loiter: poses are 101: a fleet has 1 to 100 aircraft\n"
+    assert refusal(["fleet", "fleet.csv", *CIRCLE.split()]) == "loiter: poses are 101: a fleet has 1 to 100 aircraft"

@@ -16,6 +16,8 @@ from mavlink.flyer import GuidedPlane
 from mavlink.test_watch import Flight
 from mavlink.vehicle import Plane, Vehicle, flying
 
+pytestmark = pytest.mark.usefixtures("quick")
+
 UAV = "--airspeed 18 --bank 35"
 SCENE = f"--pose -300 120 90 --orbit 0 0 80 {UAV}"
 PLACED = f"--pose-lla 47.1 8.2 90 --orbit-lla 47.11 8.23 120 {UAV} --altitude 900"

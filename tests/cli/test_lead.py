@@ -2,8 +2,6 @@
 
 import pytest
 
-from loiter.cli.app import main
-
 UAV = "--airspeed 18 --bank 35"
 SCENE = f"--pose -400 120 90 --orbit 0 0 80 {UAV}"
 WINDY = f"--pose -400 120 90 --orbit 0 0 120 {UAV} --wind 5 180 --orbit-velocity 2 -1"
@@ -41,6 +39,7 @@ def test_without_a_lead_nothing_is_said(shown, planned):
 
 
 @pytest.mark.parametrize("lead", ["-1", "nan", "inf"])
-def test_what_is_no_lead(capsys, lead):
-    assert main(["plan", *SCENE.split(), "--lead", lead]) == 2
-    assert capsys.readouterr().err.startswith(f"loiter: --lead is {float(lead)}: it must be zero or a positive")
+def test_what_is_no_lead(refusal, lead):
+    assert refusal(["plan", *SCENE.split(), "--lead", lead]).startswith(
+        f"loiter: --lead is {float(lead)}: it must be zero or a positive"
+    )

@@ -10,6 +10,8 @@ from loiter.cli.app import main
 from mavlink.test_watch import FRAME, ORBIT, Circles, Flight, Parked, Widens
 from mavlink.vehicle import OLD, Plane, Vehicle, flying, free_port
 
+pytestmark = pytest.mark.usefixtures("quick")
+
 ALONG_PATH = "Waypoints all along the path: autopilots cut its turns, and joined 2 to 4 s later than without --path."
 PLACED = "--pose-lla 47.1 8.2 90 --orbit-lla 47.11 8.23 120 --airspeed 18 --bank 35 --altitude 900"
 

@@ -5,10 +5,11 @@ import json
 import pytest
 
 import loiter
-from loiter.cli.app import main
 from loiter.fences import PlacedCircle
 from loiter.io import MissionCircle, read_site
 from mavlink.vehicle import Vehicle, flying
+
+pytestmark = pytest.mark.usefixtures("quick")
 
 UAV = "--airspeed 18 --bank 35"
 START = "--pose-lla 47.1 8.2 90"
@@ -82,7 +83,7 @@ def test_home_and_fence_are_kept(existing, shown, tmp_path):
     assert "The plan and its hold stay clear of the fence, " in text
 
 
-def test_an_upload_outside_the_fence_is_refused(existing, capsys):
+def test_an_upload_outside_the_fence_is_refused(existing, refusal):
     """The start, 2534 m from the middle of a fence of 2000 m, and a hold that enters a zone."""
     for circles, problem in (
         ([ring(2000.0)], "--pose is outside the inclusion zone 'circle 1': a plan must begin inside"),
@@ -94,8 +95,7 @@ def test_an_upload_outside_the_fence_is_refused(existing, capsys):
         path = existing(circles)
         with flying(Vehicle([])) as vehicle:
             arguments = f"upload --connect {vehicle.connection} {START} --orbit-from {path} {UAV} --altitude 900"
-            assert main(arguments.split()) == 2
-            assert problem in capsys.readouterr().err
+            assert problem in refusal(arguments)
             assert vehicle.mission == []
 
 
@@ -129,26 +129,23 @@ def first_area(kind, key, value):
         (lambda d: d["mission"].update(items=d["mission"]["items"][:1]), "its mission has no loiter"),
     ],
 )
-def test_what_cannot_be_read_is_named(existing, capsys, change, problem):
+def test_what_cannot_be_read_is_named(existing, refusal, change, problem):
     path = existing([ring(500.0)], [box(500.0)], change)
-    assert main(["plan", *START.split(), "--orbit-from", str(path), *UAV.split()]) == 2
-    out, err = capsys.readouterr()
-    assert out == ""
+    err = refusal(["plan", *START.split(), "--orbit-from", str(path), *UAV.split()])
     assert problem in err
     assert str(path) in err
 
 
-def test_a_loiter_without_a_radius_needs_one(existing, capsys):
+def test_a_loiter_without_a_radius_needs_one(existing, refusal):
     def change(document):
         document["mission"]["items"][-1]["params"][2] = None
 
     path = existing(change=change)
-    assert main(["plan", *START.split(), "--orbit-from", str(path), *UAV.split()]) == 2
-    assert "--orbit-from has a loiter without a radius, which --params with a radius gives" in capsys.readouterr().err
+    line = refusal(["plan", *START.split(), "--orbit-from", str(path), *UAV.split()])
+    assert "--orbit-from has a loiter without a radius, which --params with a radius gives" in line
 
 
-def test_only_one_circle_is_given(existing, capsys):
+def test_only_one_circle_is_given(existing, refusal):
     path = existing()
     scene = [*START.split(), "--orbit-from", str(path), "--orbit-lla", "47", "8", "120", *UAV.split()]
-    assert main(["plan", *scene]) == 2
-    assert "--orbit or --orbit-lla or --orbit-from is needed, and only one of them" in capsys.readouterr().err
+    assert "--orbit or --orbit-lla or --orbit-from is needed, and only one of them" in refusal(["plan", *scene])

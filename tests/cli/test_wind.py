@@ -1,13 +1,11 @@
 """`loiter plan --wind --orbit-velocity`: its tables, its JSON, its sentences."""
 
 import re
-import shlex
 from math import atan2, cos, degrees, hypot, radians, sin
 
 import pytest
 
 import loiter
-from loiter.cli.app import main
 
 UAV = "--airspeed 18 --bank 35"
 FIXED = f"--pose -400 120 90 --orbit 0 0 120 {UAV} --wind 8 250"
@@ -161,11 +159,7 @@ def test_fit_takes_the_least_radius_and_says_so(shown, planned):
     assert hypot(answer["join"]["east_m"], answer["join"]["north_m"]) == pytest.approx(wider.radius_m)
 
 
-def test_the_refusal_of_a_circle_proposes_fit(capsys):
-    def refusal(arguments):
-        assert main(shlex.split(arguments)) == 2
-        return capsys.readouterr().err.rstrip()
-
+def test_the_refusal_of_a_circle_proposes_fit(refusal):
     still = f"plan --pose -400 120 90 --orbit 0 0 40 {UAV}"
     assert refusal(still).endswith("it needs 39.56 deg; --fit plans for 47.18 m")
     assert refusal(f"plan {TIGHT}").endswith("or 48.96 deg; --fit plans for 98.45 m")
