@@ -2,8 +2,7 @@
 
 import pickle
 import warnings
-from math import cos, inf, nan, pi, sin
-from random import Random
+from math import inf, nan
 
 import numpy as np
 import pytest
@@ -15,34 +14,14 @@ from loiter.kernel.rebinding import rebinding
 from loiter.kernel.rounding import rounding
 from loiter.kernel.statuses import Status
 from loiter.kernel.still_air.synthesis import least_time, optimum, optimum_on_side, status_of
-from loiter.kernel.words import Side
+from native.states import drawn
 from strategies import times_of
 
-RADII = (1.0, 1.0, 1.0 + 1e-6, 1.2, 1.5, 2.0, 2.5, 3.0, 5.0, 30.0)
 THREE = np.empty(3)
 
 
-def drawn(count, seed):
-    """States, a third of them anywhere, the others within 1e-17 to 1e-5 of a circle or of the axis of the synthesis."""
-    random = Random(seed)
-    rows = []
-    for _ in range(count):
-        R, angle = random.choice(RADII), random.uniform(-pi, pi)
-        off = 10.0 ** random.uniform(-17.0, -5.0) * random.choice([-1.0, 0.0, 1.0])
-        circles = {"outer": (R + 1.0, -1.0), "inner": (R - 1.0, 1.0), "fold": (abs(R - 3.0), -1.0)}
-        place = random.choice([*circles, "axis", "anywhere", "anywhere"])
-        if place in circles:
-            radius, centre = circles[place]
-            x, y = (radius + off) * cos(angle), centre + (radius + off) * sin(angle)
-        elif place == "axis":
-            x, y = random.uniform(-3.0 * R, 3.0 * R), off
-        else:
-            x, y = random.uniform(-3.0 * R, 3.0 * R), random.uniform(-3.0 * R, 3.0 * R)
-        rows.append((x, y, R, random.choice(list(Side)), random.choice([0.0, 10.0 ** random.uniform(-14.0, -3.0)])))
-    return rows
-
-
-ROWS = drawn(20_000, 0)
+# Next to a boundary, as near as 1e-17.
+ROWS = drawn(20_000, 0, nearest=-17.0)
 X, Y, R, SIDES, TOLERANCE = np.array(ROWS).T.copy()
 SIDES = SIDES.astype(np.int8)
 

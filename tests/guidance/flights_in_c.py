@@ -107,43 +107,50 @@ def roll_kind(roll, start_deg):
     return kind, 2.0 * zeta / frequency
 
 
+def vehicle_fields(start, aircraft, wind, noise, gust, air, step_s):
+    """Fields of a scene: its start, aircraft and wind, the noise of its sensors, and the gusts that `air` draws."""
+    V, (along, y, slope) = aircraft.airspeed_m_s, air.standard_normal(3).tolist()
+    east, north = heading_vector(start.heading_deg)
+    wind_east_m_s, wind_north_m_s = wind.velocity_m_s
+    return {
+        "east_m": start.east_m,
+        "north_m": start.north_m,
+        "heading_east": east,
+        "heading_north": north,
+        "V": V,
+        "wind_east_m_s": wind_east_m_s,
+        "wind_north_m_s": wind_north_m_s,
+        "limit_deg": aircraft.bank_deg(aircraft.turn_radius_m),
+        **{name: getattr(noise, name) for name in noise.__dataclass_fields__},
+        "gust_m_s": gust * V,
+        "gust_along": along,
+        "gust_y": 0.5 * y,
+        "gust_slope": 0.5 * slope,
+        "gust_step": (c_double * 9)(*_gust_step(step_s / (scale_length_m(ALTITUDE_M) / V))),
+        "step_s": step_s,
+    }
+
+
 def fly_in_c(trial, gust=0.0, *, limit_s=LIMIT_S, knows_roll=False, track=False):
     """The flight of the law with the aircraft of a `VariedTrial`, as `fly` flies `varied_point_mass`.
 
     With `knows_roll` the law is given the bank that follows each of its commands, and the delay, from the first step;
     all else is identified.
     """
-    m, uav, noise, link, V = trial.ideal, trial.declared, trial.noise, trial.downlink, trial.declared.airspeed_m_s
+    m, uav, link = trial.ideal, trial.declared, trial.downlink
     law = LoiterEntry(m.orbit, uav, trial.known_wind)
     steps, band, turns = int(limit_s / STEP_S) + 2, Band(), DIRECTIONS[m.orbit.turn]
     air, sensors = (np.random.default_rng(seed) for seed in np.random.SeedSequence(trial.seed).spawn(2))
-    along, y, slope = air.standard_normal(3).tolist()
-    east, north = heading_vector(m.start.heading_deg)
-    wind_east_m_s, wind_north_m_s = m.wind.velocity_m_s
     roll, lag_s = roll_kind(trial.response, trial.start_bank_deg)
     scene = Scene(
-        east_m=m.start.east_m,
-        north_m=m.start.north_m,
-        heading_east=east,
-        heading_north=north,
-        V=V,
+        **vehicle_fields(m.start, uav, m.wind, trial.noise, gust, air, STEP_S),
         turn_ratio=trial.turn_ratio,
-        wind_east_m_s=wind_east_m_s,
-        wind_north_m_s=wind_north_m_s,
-        limit_deg=uav.bank_deg(uav.turn_radius_m),
         roll=roll,
-        **{name: getattr(noise, name) for name in noise.__dataclass_fields__},
-        gust_m_s=gust * V,
-        gust_along=along,
-        gust_y=0.5 * y,
-        gust_slope=0.5 * slope,
-        gust_step=(c_double * 9)(*_gust_step(STEP_S / (scale_length_m(ALTITUDE_M) / V))),
         **{name: getattr(link, name) for name in link.__dataclass_fields__},
         radius_m=m.orbit.radius_m,
         direction=turns[0] if len(turns) == 1 else 0,
         band=band.radial,
         course_deg=band.course_deg,
-        step_s=STEP_S,
         limit_s=limit_s,
         knows_roll=knows_roll,
         lag_s=lag_s,

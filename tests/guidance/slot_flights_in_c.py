@@ -14,15 +14,12 @@ from codegen.files import LARGE, LAW_ARITHMETIC, LAW_REPLACED
 from codegen.kinds import kind_of_type
 from codegen.unit import Unit
 
-from guidance.flights_in_c import ROOTS, Scene, drawn, roll_kind
+from guidance.flights_in_c import ROOTS, Scene, drawn, roll_kind, vehicle_fields
 from guidance.test_law_in_c import in_c, structure
 from loiter.guidance.entry import slot_step
-from loiter.guidance.simulators.gusts import _gust_step, scale_length_m
-from loiter.guidance.simulators.point_mass import ALTITUDE_M
 from loiter.guidance.simulators.sensors import Noise
 from loiter.guidance.vehicle.rolling import Roll
 from loiter.kernel.wind import slots
-from loiter.planning.compass import heading_vector
 from loiter.planning.model import CALM
 from native.library import COMPILER, FLAGS
 
@@ -45,28 +42,8 @@ def library():
 def vehicle(pose, aircraft, wind, seed, gust, steps, step_s):
     """The scene of a `PointMass` with a seed, and the random numbers that it draws: of sensors and air."""
     air, sensors = (np.random.default_rng(each) for each in np.random.SeedSequence(seed).spawn(2))
-    V, (along, y, slope), noise = aircraft.airspeed_m_s, air.standard_normal(3).tolist(), Noise()
-    east, north = heading_vector(pose.heading_deg)
-    wind_east_m_s, wind_north_m_s = wind.velocity_m_s
-    scene = Scene(
-        east_m=pose.east_m,
-        north_m=pose.north_m,
-        heading_east=east,
-        heading_north=north,
-        V=V,
-        turn_ratio=1.0,
-        wind_east_m_s=wind_east_m_s,
-        wind_north_m_s=wind_north_m_s,
-        limit_deg=aircraft.bank_deg(aircraft.turn_radius_m),
-        roll=roll_kind(Roll(), 0.0)[0],
-        **{name: getattr(noise, name) for name in noise.__dataclass_fields__},
-        gust_m_s=gust * V,
-        gust_along=along,
-        gust_y=0.5 * y,
-        gust_slope=0.5 * slope,
-        gust_step=(c_double * 9)(*_gust_step(step_s / (scale_length_m(ALTITUDE_M) / V))),
-        step_s=step_s,
-    )
+    fields = vehicle_fields(pose, aircraft, wind, Noise(), gust, air, step_s)
+    scene = Scene(**fields, turn_ratio=1.0, roll=roll_kind(Roll(), 0.0)[0])
     # Two measurements are made in a step while none is old enough.
     return scene, drawn(sensors, 2 * steps + 2, 7), drawn(air, steps, 3)
 

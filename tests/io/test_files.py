@@ -1,5 +1,6 @@
 """Saving: formats by their endings, whole files or none, what is missing said in a sentence."""
 
+import re
 from concurrent.futures import ThreadPoolExecutor
 from math import inf, nan
 from pathlib import Path
@@ -14,11 +15,13 @@ from loiter.io import FORMATS, Autopilot, check_format, mission, read_mission, s
 from loiter.io.files import FILE_FORMATS
 from loiter.writing import check_writable, write_whole
 
+ROOT = Path(__file__).parents[2]
 M, _ = SCENES["wind"]
 
 
 def test_formats_are_those_of_the_documentation():
-    assert FORMATS == (".geojson", ".kml", ".gpx", ".csv", ".plan", ".waypoints", ".txt")
+    rows = re.findall(r"^\| (`\..*?) \|", (ROOT / "docs" / "maps.md").read_text("utf-8"), re.MULTILINE)
+    assert tuple(re.findall(r"`(\.\w+)`", " ".join(rows))) == FORMATS
 
 
 @pytest.mark.parametrize("ending", FORMATS)
@@ -122,7 +125,7 @@ def refused(tmp_path, name, sentence, kind=InvalidArgument, maneuver=M, **option
 
 @pytest.mark.parametrize("name", ["a", "a.json", "a.kmz", ".kml", "a.kml.gz"])
 def test_other_endings_are_refused(tmp_path, name):
-    sentence = rf"^path is '.*{name}': the file name must end in .geojson, .kml, .gpx, .csv, .plan, .waypoints, .txt$"
+    sentence = rf"^path is '.*{name}': the file name must end in {', '.join(FORMATS)}$"
     refused(tmp_path, name, sentence, frame=FRAME, altitude_m=600.0)
     with pytest.raises(InvalidArgument, match=sentence):
         check_format(Path(name))
