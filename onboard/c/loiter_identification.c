@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: e43d9cadb55b6a45a2fdf84f3413438ceec90ad590e396edf8eeba57746cf378
+ * SHA-256 of the source: 1399b1d6010f41588bd81f27a48ba01f209c87a8903e3abbbd9cb6853043b667
  */
 #include "loiter_identification.h"
 
@@ -874,7 +874,7 @@ static inline void compare(RollMemory *memory, const RollSettings *settings, int
     return;
 }
 
-/* `NO_ROLL`, which is given, with the estimate before the first command. */
+/* The memory before the first command, with wings level: `NO_ROLL`, which is given, with the first estimate. */
 static inline void begin_roll(RollMemory *memory, const RollSettings *settings) {
     memory->since_s = CORRELATION_S;
     /* A measurement that counts for no time leaves the probabilities as they are declared. */

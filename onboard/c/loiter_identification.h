@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: e43d9cadb55b6a45a2fdf84f3413438ceec90ad590e396edf8eeba57746cf378
+ * SHA-256 of the source: 1399b1d6010f41588bd81f27a48ba01f209c87a8903e3abbbd9cb6853043b667
  */
 #ifndef LOITER_IDENTIFICATION_H
 #define LOITER_IDENTIFICATION_H

@@ -20,14 +20,15 @@ from loiter.guidance.estimation.roll_response import (
     DECLARED_RATE,
     DECLARED_TIME,
     KINDS,
+    NO_ROLL,
     RATE_RATIO,
     RATES,
     SECOND_TIME,
     STEP_S,
     TIME_RATIO,
     add_measured_bank,
+    begin_roll,
     compare,
-    first_roll,
     fly_models,
     roll_settings,
     start_models,
@@ -61,7 +62,7 @@ START = Pose(-400.0, 120.0, 200.0)
 def identified(roll, delay_s, *, noise_deg=0.5, seconds=12.0, dt=0.02):
     """The estimate after reversals of the bank every two seconds, and the banks that were predicted for the present."""
     random, settings = np.random.default_rng(4), roll_settings(RollValues(0.5, 60.0, 0.0), 0.1)
-    memory, bank, banks, errors = first_roll(settings), 0.0, [], []
+    memory, bank, banks, errors = begin_roll(NO_ROLL, settings), 0.0, [], []
     for i in range(round(seconds / dt)):
         command = 35.0 if (i * dt) % 4.0 < 2.0 else -35.0
         banks.append(bank)
@@ -101,7 +102,7 @@ def test_a_slow_roll_is_found():
 def test_a_lag_of_the_bank_rate_is_found():
     response = RollResponse(0.5, 0.1, 0.12, 80.0)
     settings, roll = roll_settings(RollValues(0.5, 60.0, 0.0), 0.1), SecondOrderRoll(response)
-    memory = first_roll(settings)
+    memory = begin_roll(NO_ROLL, settings)
     for i in range(600):
         command = 35.0 if i % 200 < 100 else -35.0
         memory = fly_models(add_measured_bank(memory, roll.bank_deg), settings, command, 0.02)
@@ -114,7 +115,7 @@ def test_a_lag_of_the_bank_rate_is_found():
 def test_a_rate_that_measurements_leave_open_is_taken_for_lower():
     """Small changes of bank show the time constant, but only that the rate limit is not very low."""
     settings = roll_settings(RollValues(0.5, 60.0, 0.0), 0.1)
-    memory, bank = start_models(first_roll(settings), 0.0), 0.0
+    memory, bank = start_models(begin_roll(NO_ROLL, settings), 0.0), 0.0
     for i in range(300):
         command = 12.0 if i % 100 < 50 else -12.0
         memory = fly_models(add_measured_bank(memory, bank), settings, command, 0.04)
@@ -128,7 +129,8 @@ def test_a_rate_that_measurements_leave_open_is_taken_for_lower():
 @pytest.mark.parametrize("delay_s", [0.0, 0.1, 0.6])
 @pytest.mark.parametrize("roll", [Roll(0.1, 100.0), Roll(0.5, 60.0), Roll(1.2, 45.0)])
 def test_before_anything_is_measured_the_estimate_is_what_is_declared(roll, delay_s):
-    estimate = first_roll(roll_settings(RollValues(roll.time_s, roll.rate_deg_s, 0.0), delay_s)).weights.estimate
+    settings = roll_settings(RollValues(roll.time_s, roll.rate_deg_s, 0.0), delay_s)
+    estimate = begin_roll(NO_ROLL, settings).weights.estimate
     assert estimate.delay_s == pytest.approx(delay_s, abs=1e-9)
     assert estimate.roll.time_s == pytest.approx(roll.time_s)
     assert estimate.roll.rate_deg_s == pytest.approx(roll.rate_deg_s)
@@ -137,14 +139,14 @@ def test_before_anything_is_measured_the_estimate_is_what_is_declared(roll, dela
 @pytest.mark.parametrize("delay_s", [1.3, 2.0, 1e6])
 def test_a_delay_beyond_the_longest_counts_as_that(delay_s):
     settings = roll_settings(RollValues(0.5, 60.0, 0.0), delay_s)
-    memory = fly_models(add_measured_bank(first_roll(settings), 0.0), settings, 30.0, 0.5)
+    memory = fly_models(add_measured_bank(begin_roll(NO_ROLL, settings), 0.0), settings, 30.0, 0.5)
     assert memory.weights.estimate.delay_s == pytest.approx(1.3, abs=1e-6)
 
 
 def test_a_long_flight_of_wrong_predictions_leaves_the_probabilities_finite():
     """Of a vehicle that banks the other way: the probabilities of all pairs fall, by the same factor."""
     settings = roll_settings(RollValues(0.5, 60.0, 0.0), 0.1)
-    memory = first_roll(settings)
+    memory = begin_roll(NO_ROLL, settings)
     for i in range(6000):
         command_deg = 35.0 if i % 100 < 50 else -35.0
         memory = fly_models(add_measured_bank(memory, -command_deg), settings, command_deg, 0.05)
@@ -156,7 +158,7 @@ def test_a_long_flight_of_wrong_predictions_leaves_the_probabilities_finite():
 
 def test_a_constant_bank_teaches_nothing_and_makes_nothing_forgotten():
     settings = roll_settings(RollValues(0.5, 60.0, 0.0), 0.1)
-    memory = start_models(first_roll(settings), 20.0)
+    memory = start_models(begin_roll(NO_ROLL, settings), 20.0)
     for _ in range(3000):
         memory = fly_models(add_measured_bank(memory, 20.0), settings, 20.0, 0.02)
     assert memory.weights.estimate.delay_s == pytest.approx(0.1, abs=1e-6)
@@ -167,7 +169,7 @@ def test_a_constant_bank_teaches_nothing_and_makes_nothing_forgotten():
 def test_a_measured_bank_is_compared_with_all_models_by_their_next_step(dt):
     """In steps of 20 ms, with a fifth of them in each; in longer ones with all."""
     settings = roll_settings(RollValues(0.5, 60.0, 0.0), 0.1)
-    memory, compared = start_models(first_roll(settings), 0.0), []
+    memory, compared = start_models(begin_roll(NO_ROLL, settings), 0.0), []
     for i in range(round(4.0 / dt)):
         memory = fly_models(add_measured_bank(memory, 10.0 * sin(i * dt)), settings, 30.0, dt)
         compared.append(memory.comparison.done)

@@ -163,23 +163,22 @@ def _in_wind(s: States) -> Entries:
     """The entries of rows in wind relative to the circle."""
     r = _turn_radius(s)
     refused = _refused_statuses(s, r)
+    return _entries_in_wind(s, r, refused, _kernel_in_wind(*_wind_problems(s, r, refused), s.tolerance_m / r))
+
+
+def _wind_problems(s: States, r: Any, refused: Any) -> tuple[Any, ...]:
+    """The fields of `WindProblem` of rows, but for the tolerance; those of refused rows are nan."""
     x, y = (s.east_m - s.orbit_east_m) / r, (s.north_m - s.orbit_north_m) / r
     (c, v), (wx, wy) = heading_vectors()(s.heading_deg), _relative_wind(s)
-    solution = _kernel_in_wind(
-        np.where(refused, nan, x), y, c, v, s.orbit_radius_m / r, s.side, wx, wy, s.tolerance_m / r
-    )
-    return _entries_in_wind(s, r, refused, solution)
+    return np.where(refused, nan, x), y, c, v, s.orbit_radius_m / r, s.side, wx, wy
 
 
 def _in_slots(s: States) -> Entries:
     """The entries of rows into slots, in still air and in wind."""
     r = _turn_radius(s)
     refused = _refused_statuses(s, r)
-    x, y = (s.east_m - s.orbit_east_m) / r, (s.north_m - s.orbit_north_m) / r
-    (c, v), (wx, wy) = heading_vectors()(s.heading_deg), _relative_wind(s)
     phase: Any = s.slot_phase_deg
-    problems: tuple[Any, ...] = np.where(refused, nan, x), y, c, v, s.orbit_radius_m / r, s.side, wx, wy, 0.0
-    rows = np.broadcast_arrays(*problems, phase, s.slot_at_s, r / s.airspeed_m_s)
+    rows = np.broadcast_arrays(*_wind_problems(s, r, refused), 0.0, phase, s.slot_at_s, r / s.airspeed_m_s)
     found = [
         _first_in_slot(WindProblem(*numbers), phase_deg, at_s, unit_s)
         for *numbers, phase_deg, at_s, unit_s in zip(*(column.tolist() for column in rows), strict=True)

@@ -114,9 +114,7 @@ def _at(uav: AircraftOptions, altitude_m: float) -> AircraftOptions:
     temperature = uav.temperature
     if temperature is not None and uav.altitude is not None:
         temperature -= LAPSE_K_PER_M * (altitude_m - uav.altitude)
-    moved = replace(uav, altitude=altitude_m, temperature=temperature)
-    vars(moved)["preset"] = uav.preset  # the file is read once
-    return moved
+    return replace(uav, altitude=altitude_m, temperature=temperature)
 
 
 def with_rates(aircraft: Aircraft, climb_rate_m_s: float | None, descent_rate_m_s: float | None) -> Aircraft:

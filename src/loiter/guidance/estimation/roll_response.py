@@ -335,13 +335,8 @@ def cautious_estimate(unknown: Unknown, sums: Sums) -> float:
     return estimate_of(unknown, sums) - RATE_CAUTION * measured_share(unknown, sums) * deviation
 
 
-def first_roll(settings: RollSettings) -> RollMemory:
-    """The memory before the first command, with wings level."""
-    return begin_roll(NO_ROLL, settings)
-
-
 def begin_roll(memory: RollMemory, settings: RollSettings) -> RollMemory:
-    """`NO_ROLL`, which is given, with the estimate before the first command."""
+    """The memory before the first command, with wings level: `NO_ROLL`, which is given, with the first estimate."""
     memory = memory._replace(since_s=CORRELATION_S)
     # A measurement that counts for no time leaves the probabilities as they are declared.
     memory = memory._replace(comparison=comparison_with(NOTHING_MEASURED, 0))

@@ -286,49 +286,51 @@ def near(inwards_sign: Possible, outwards_sign: Possible, wide: Possible) -> int
 # Sums with their rounding errors
 
 
-def rounding_errors() -> Certainty:
-    """`exact.beyond` and the others add all errors of the orders that they say; sums and products are published."""
-    x, y, R, k, *symbols, _ = variables("x y R k s t1 t2 p q u")
-    sums = iter(symbols[i] for i in (0, 1, 2, 5))
-    products = iter(symbols[i] for i in (3, 4))
-    errors: list[Expression] = []
+class ExactArithmetic:
+    """In place of `two_sum` and `two_product`: rounded results are variables, in this order; errors are exact.
 
-    def two_sum(a: Any, b: Any) -> Any:
-        rounded = next(sums)
-        errors.append(a + b - rounded)
-        return rounded, errors[-1]
+    `errors` has the errors of the sums.
+    """
 
-    def two_product(a: Any, b: Any) -> Any:
-        rounded = next(products)
+    def __init__(self, sums: Sequence[Expression], products: Sequence[Expression]) -> None:
+        self._sums, self._products = iter(sums), iter(products)
+        self.errors: list[Expression] = []
+
+    def names(self) -> dict[str, Any]:
+        """The functions by name."""
+        return {"two_sum": self._two_sum, "two_product": self._two_product}
+
+    def _two_sum(self, a: Any, b: Any) -> tuple[Expression, Expression]:
+        rounded = next(self._sums)
+        self.errors.append(a + b - rounded)
+        return rounded, self.errors[-1]
+
+    def _two_product(self, a: Any, b: Any) -> tuple[Expression, Expression]:
+        rounded = next(self._products)
         return rounded, a * b - rounded
 
-    found = rebinding({"two_sum": two_sum, "two_product": two_product})(exact.beyond)(x, y, R, k)
+
+def rounding_errors() -> Certainty:
+    """`exact.beyond` and the others add all errors of the orders that they say; sums and products are published."""
+    x, y, R, k, *symbols, _ = variables("x y R k s t1 t2 u p q")
+    exactly = ExactArithmetic(symbols[:4], symbols[4:])
+    found = rebinding(exactly.names())(exact.beyond)(x, y, R, k)
     difference = x * x + (y - R) * (y + R + k)
     # es (et + ek), which is below 2^-98 of the square of the scale.
-    zero("`beyond`", difference - found - errors[0] * (errors[1] + errors[2]))
+    es, et, ek, *_ = exactly.errors
+    zero("`beyond`", difference - found - es * (et + ek))
     return Certainty(1 + beyond_circles() + square_beyond() + published_algorithms(), 0)
 
 
 def beyond_circles() -> int:
     """`exact.beyond_circles` adds errors of first order, to `fold` those of second order too; the number of cases."""
     x, y, R, *symbols, _ = variables("x y R s t1 t2 e u a b c d f g p q v w")
-    sums, products = iter(symbols[:11]), iter(symbols[11:])
-    errors: list[Expression] = []
-
-    def two_sum(a: Any, b: Any) -> Any:
-        rounded = next(sums)
-        errors.append(a + b - rounded)
-        return rounded, errors[-1]
-
-    def two_product(a: Any, b: Any) -> Any:
-        rounded = next(products)
-        return rounded, a * b - rounded
-
-    outer, inner, fold = rebinding({"two_sum": two_sum, "two_product": two_product})(exact.beyond_circles)(x, y, R)
+    exactly = ExactArithmetic(symbols[:11], symbols[11:])
+    outer, inner, fold = rebinding(exactly.names())(exact.beyond_circles)(x, y, R)
     left, right = x * x + (y + 1.0) * (y + 1.0), x * x + (y - 1.0) * (y - 1.0)
     expected = left - (R + 1.0) * (R + 1.0), right - (R - 1.0) * (R - 1.0), left - (R - 3.0) * (R - 3.0)
     # es ee, of third order, is left out, and of `outer` and `inner` what `fold` has as `low`.
-    es, ee, u, d = errors[0], errors[3], symbols[4], symbols[8]
+    es, ee, u, d = exactly.errors[0], exactly.errors[3], symbols[4], symbols[8]
     low = fold - u - d
     values = outer + low, inner + low, fold
     zero("`beyond_circles`", *(a - b - es * ee for a, b in zip(expected, values, strict=True)))
