@@ -37,6 +37,7 @@ TRUE = [
     "**Proven**, up to rounding and except for whole turns as in proof.md, section 10",
     "That nothing is faster is proved in still air, without a tolerance ([proof.md](proof.md))",
     "it says that the conditions are no proof of optimality",
+    "that no flight is faster is still proved in words only",
     "the whole theorem is proved from the definitions on in Coq",
     "The arctangent of the compiled loops and of the page is proved to be off by at most 1.95 times 2^-52 of the angle",
     "(proved for the arctangent, [bridging.md](bridging.md)",
