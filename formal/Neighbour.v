@@ -2,7 +2,7 @@
 
 Require Import Reals Lra.
 From Coquelicot Require Import Coquelicot.
-From Loiter Require Import Motion Value Synthesis Clockwise Wider WiderMargin WiderStraight WiderCrossing WiderLRL.
+From Loiter Require Import Motion Value Synthesis Clockwise Wider WiderMargin WiderStraight WiderCrossing WiderLRL WiderEdge.
 Open Scope R_scope.
 
 (** The flight moved as a whole, without turning it. *)
@@ -76,6 +76,7 @@ Proof. apply neighbour, least_time_clockwise_is_least. Qed.
 Definition theorems := (least_time_is_flown, least_time_is_least, least_time_of_a_neighbour,
   least_time_clockwise_is_flown, least_time_clockwise_is_least, least_time_clockwise_of_a_neighbour,
   word_is_flown, least_of_words_is_least, least_of_words_is_flown, least_of_words_is_flown_either, straight_margin,
-  straight_falls_slowly, faster_below_the_axis, faster_above_the_axis, two_arcs_margin_holds, lrl_margin_holds).
+  straight_falls_slowly, faster_below_the_axis, faster_above_the_axis, two_arcs_margin_holds, lrl_margin_holds,
+  single_arc_falls_slowly).
 
 Print Assumptions theorems.

@@ -61,6 +61,12 @@ MUTANTS = [
     ("WiderLRL.v", "-> 0 <= three_arcs_margin rho x y ->", "-> -1 <= three_arcs_margin rho x y ->"),
     ("WiderLRL.v", "let s' := p * (2 * s + d) / (4 * g)", "let s' := p * (s + d) / (4 * g)"),
     ("WiderLRL.v", "  0 < lrl_under_root rho x y /\\ lrl_s", "  0 <= lrl_under_root rho x y /\\ lrl_s"),
+    ("WiderEdge.v", "(rho - 1) * (rho - 1) /\\ 0 <= range_sq x y + y - 1\n", "(rho - 1) * (rho - 1) /\\ True\n"),
+    (
+        "WiderEdge.v",
+        "LR_right => outer_sq x y = (rho + 1) * (rho + 1)",
+        "LR_right => outer_sq x y = (rho - 3) * (rho - 3)",
+    ),
     ("Motion.v", "right_derive x t (1 + u t * y t);", "right_derive x t (2 + u t * y t);"),
 ]
 
