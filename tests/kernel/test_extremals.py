@@ -1,6 +1,6 @@
 """The closed forms: each piece ends where its name says."""
 
-from math import acos, hypot, inf, pi, sqrt
+from math import acos, cos, hypot, inf, pi, sin, sqrt
 
 import pytest
 from hypothesis import assume, example, given, settings
@@ -67,8 +67,12 @@ def test_last_arcs_after_a_straight_piece_last_as_long_as_the_radius_says(x, y, 
 
 
 @settings(max_examples=200)
-@given(coordinates, coordinates, radii)
-def test_lrl_switches_where_the_maximum_principle_asks(x, y, R):
+@given(st.floats(1.0, 2.7), st.floats(0.0, 0.999), st.floats(-pi, pi))
+def test_lrl_switches_where_the_maximum_principle_asks(R, share, azimuth):
+    """From the outer part of the circle of 3 - R about (0, -1), where LRL exists."""
+    least = 0.4 + 0.3 * (R - 1.0)
+    distance = (least + share * (1.0 - least)) * (3.0 - R)
+    x, y = distance * cos(azimuth), distance * sin(azimuth) - 1.0
     extremal = lrl(start_at(x, y, R, 0.0))
     first, middle, _ = durations(extremal)
     assume(duration(extremal) < inf)
