@@ -26,11 +26,6 @@ def earliest(word, phase, half, side, scene):
     return min(first_path_of(set_of(word), one, side, scene, inf).time for one in phases)
 
 
-def test_each_word_has_its_bit():
-    assert sorted(map(set_of, WORDS)) == [1, 2, 4, 8, 16, 32]
-    assert sum(map(set_of, WORDS)) == ALL_WORDS
-
-
 @pytest.mark.parametrize(("seed", "windiest"), [(1, 0.6), (2, 0.95)])
 def test_no_path_into_a_cell_is_earlier_than_the_time_for_which_its_word_is_excluded(seed, windiest):
     random, excluded, tried = Random(seed), 0, 0

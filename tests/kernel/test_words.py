@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from loiter.kernel.words import ABSENT, Word, controls, encode, mirrored, rest
+from loiter.kernel.words import ABSENT, ALL_WORDS, WITH_STRAIGHT, Word, controls, encode, mirrored, rest, set_of
 
 SWAP = str.maketrans("LR", "RL")
 LETTERS = {-1: "R", 0: "S", 1: "L"}
@@ -38,3 +38,10 @@ def test_codes_in_tables_and_arrays_stay_what_they_are(word, code):
 def test_mirroring_swaps_left_and_right(word):
     assert Word(mirrored(word)).letters == word.letters.translate(SWAP)
     assert mirrored(mirrored(word)) == word
+
+
+def test_a_set_of_words_has_a_bit_for_each():
+    words = [Word.LSL, Word.RSR, Word.LSR, Word.RSL, Word.LRL, Word.RLR]
+    assert [set_of(word) for word in words] == [1, 2, 4, 8, 16, 32]
+    assert sum(map(set_of, words)) == ALL_WORDS
+    assert sum(set_of(word) for word in words if "S" in word.letters) == WITH_STRAIGHT
