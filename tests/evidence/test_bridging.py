@@ -1,6 +1,6 @@
 """docs/bridging.md: paths in doubles end at the target, and answers that were once late are late no longer."""
 
-from math import cos, sin
+from math import atan2, cos, pi, sin, sqrt
 from random import Random
 
 import pytest
@@ -102,6 +102,27 @@ def test_lr_with_the_left_crossing_is_no_faster_than_rsr():
             seen += 1
             # The left crossing is the first.
             assert of_rsr[0] < of_lr[0]
+
+
+def test_lr_with_the_left_crossing_is_no_faster_than_r_from_below():
+    """Lemma 15, where the first arc begins between straight below its centre and the crossing."""
+    random = Random(3)
+    for _ in range(100):
+        R = 3.0 + 10.0 ** random.uniform(-3.0, 3.0)
+        r = R - 3.0 + 2.0 * random.random()
+        beyond = r * r - (R - 3.0) ** 2
+        x1, y1 = -0.25 * sqrt(beyond * ((R + 1.0) ** 2 - r * r)), 2.0 - R + 0.25 * beyond
+        turn = random.random() * atan2(-x1, -1.0 - y1)
+        x, y = -r * sin(turn), -1.0 - r * cos(turn)
+        times = list(bridging.exact_times(bridging.arb(x), bridging.arb(y), bridging.arb(R)))
+        of_lr = next(time for word, time in times if word == "LR")
+        assert of_lr < turn_of_l(x, y) + pi
+        assert of_lr > pi - atan2(x, 1.0 - y) - 1e-12
+
+
+def turn_of_l(x, y):
+    """The angle by which L turns a state to straight below its centre."""
+    return atan2(x, -1.0 - y) % (2.0 * pi)
 
 
 def test_the_exact_optimum_is_that_of_the_paper():
