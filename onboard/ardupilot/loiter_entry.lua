@@ -2,7 +2,7 @@
 --
 -- Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
 --
--- SHA-256 of the source: c687293b0cc708ec32e19404b48f55d3a2e754bd3b6573f510dc09f5c935d4f4
+-- SHA-256 of the source: 50e6fdb155dc1cd85c7c70dae0df4512011809f15aba3e45d1109b09cadc0cea
 --
 -- When a switch asks for it, this script flies a plane onto the holding circle around its present target in least
 -- time, and then leaves the circle to ArduPlane: loiter_entry.md. It works by GUIDED_CHANGE_HEADING in GUIDED: the target
@@ -251,7 +251,7 @@ law.NO_PLAN = {route = {side = 0, current = {u = -2, x = 0.0, y = 0.0, c = 1.0, 
 
 -- The control of a piece that the word does not have.
 -- ABSENT = -2
-law.NO_LEADS = {bank = -1000000000, rate = 0, current = 0, next = 0, last = 0, current_s = 0.0, more = 0.0, next_s = 0.0, last_s = 0.0}
+law.NO_LEADS = {bank = -1000000000, rate = 0, current = 0, next = 0, last = 0, current_s = 0.0, more = 0.0, next_s = 0.0, last_s = 0.0, displaced_s2 = 0.0}
 law.NO_RESPONSE = {state = {time_s = 0.0, x = 0.0, y = 0.0, vx = 0.0, vy = 0.0, hx = 0.0, hy = 0.0}, offset = {crosstrack = 0.0, course_error = 0.0, path_rate = 0.0}, early_s = 0.0}
 law.NO_ENTRY_SEARCH = {aim = 0, state = {time_s = 0.0, x = 0.0, y = 0.0, vx = 0.0, vy = 0.0, hx = 0.0, hy = 0.0}, turns = {airspeed_m_s = 1.0, tightest_m = 1.0, planned_m = 1.0}, wind_east_m_s = 0.0, wind_north_m_s = 0.0, radius_m = 1.0, wide_m = 1.0, side = 0, reversing = false, is_second = false, is_begun = false, in_air = {stage = 0, sides = 0, side = 1, scene = {x = 0.0, y = 0.0, c = 1.0, s = 0.0, R = 1.0, wx = 0.0, wy = 0.0, arc_tolerance = 0.0}, best = {phase = 0.0, side = 0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}}, beside = {entry = {side = 0, word = 0, t1 = huge, t2 = 0.0, t3 = 0.0}, phase = 0.0, miss = huge}, visit = {number = 0, level = 0, words = 63}, before = {number = -2, point = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}}, leaves = {first = 0, second = 0, third = 0, fourth = 0}, others = {first = 0, second = 0, third = 0, fourth = 0}, corner = {phase = 0.0, u = 0, t1 = 0.0, t2 = 0.0}, compared = huge, visits = 0, refinement = {stage = 0, side = 0, width = 0.0, here = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}, other = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}, last = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}, words = 0, bisect = false, steps = 0, enclosures = 0}, cell = {words = 0, earliest = 0.0, tolerance = 0.0}, left = 0, entry = {status = 12, side = 0, word = 0, t1 = (0.0 / 0.0), t2 = (0.0 / 0.0), t3 = (0.0 / 0.0), azimuth = (0.0 / 0.0), miss = (0.0 / 0.0)}}}
 
@@ -329,9 +329,19 @@ law.NO_PIECE = {u = -2, x = 0.0, y = 0.0, c = 1.0, s = 0.0, end_x = 0.0, end_y =
 -- TINY = 1.4551915228366852e-11 -- 2.0 ** (-300)
 -- TWO_PI = 6.283185307179586 -- 2.0 * pi
 
+-- In heavy gusts it rises in proportion to them, from this angle on and up to this multiple.
+-- HEAVY_GUSTS = 0.04
+
+-- The last turn, where it is opposite to the circle, is aimed again from the present state as long as so much of
+-- the present piece is left, seconds, the turn is no wider than this multiple of a planned one, and the time to
+-- join changes by no more than the third number, seconds.
+-- WIDEST_AIMED = 8.0
+
 -- Beyond this crosstrack error, turn radii, or course error, radians, the aircraft is lost: any new plan is
 -- accepted.
 -- LOST_OFFSET = 0.5
+-- AIMED_LEFT_S = 0.2
+-- AIM_CHANGE_S = 1.0
 -- LOST_COURSE = 1.0
 -- ANY = 2
 
@@ -377,7 +387,7 @@ law.NONE = {side = 0, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0}
 -- where they change the course by `ROUGH_HOLD` in a second. A vehicle that turns more quickly than its bank says
 -- where that changes would swing about the circle otherwise.
 -- HOLD_RATE = 1.3
--- HOLD_MULTIPLE = 4.0
+-- HOLD_MULTIPLE = 6.0
 
 -- On the circle crosstrack errors are corrected over an arc of 1/HOLD_GAIN radians, so that the intercept angle
 -- depends only on the ratio of the error to the radius.
@@ -389,9 +399,6 @@ law.NONE = {side = 0, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0}
 -- CALM_HOLD_GAIN = 0.35
 -- ROUGH_HOLD = 0.02
 -- ROUGH_AIR = 0.02
-
--- In heavy gusts it rises in proportion to them, from this angle on and up to this multiple.
--- HEAVY_GUSTS = 0.04
 -- HEAVY_GAIN = 1.5
 
 -- The gains of course and crosstrack corrections, to be divided by the response time: the delay of a change of bank
@@ -1523,7 +1530,8 @@ function law.leads_to(limits, leads, now, route)
     now = {bank_deg = 0.5 * bank, rate_deg_s = 0.5 * 4.0--[[RATE_STEPS]] * rate}
     local there = tan(now.bank_deg * 0.017453292519943295)
     local first_s = law.small_onset(roll).lead_s
-    local first_missing_s = law.turn_delay(roll, now, 0.5 * first, limit_deg).missing_s
+    local first_delay = law.turn_delay(roll, now, 0.5 * first, limit_deg)
+    local first_missing_s = first_delay.missing_s
     local tangent = tan(0.5 * first * 0.017453292519943295)
     -- Where the bank goes without a command.
     local coasted_deg = law.clip(now.bank_deg + law.coasting_s(roll) * now.rate_deg_s, limit_deg)
@@ -1536,8 +1544,9 @@ function law.leads_to(limits, leads, now, route)
     local more = current_s > 0.0 and first ~= bank and tangent - first_missing_s / current_s - there or 0.0
     local next_s = law.change_delay_s(roll, now, limit_deg, first, first_missing_s, second) - current_s
     local last_s = law.change_delay_s(roll, now, limit_deg, first, first_missing_s, last) - current_s
+    local displaced_s2 = first_delay.moment_s2 - 0.5 * first_missing_s * current_s
     return {bank = bank, rate = rate, current = first, next = second, last = last, current_s = current_s, more =
-            more, next_s = next_s, last_s = last_s}
+            more, next_s = next_s, last_s = last_s, displaced_s2 = displaced_s2}
 end
 
 -- The estimate with a turn rate that is larger by `more` g/V, positive to the right.
@@ -1545,6 +1554,12 @@ function law.turning_more(estimate, more)
     local V = estimate.airspeed_m_s
     local rate = estimate.turn_rate - estimate.turning.ratio * 9.80665--[[STANDARD_GRAVITY_M_S2]] * more / V
     return with_fields(estimate, {turn_rate = rate})
+end
+
+-- The state displaced to the right by so many times standard gravity.
+function law.displaced(state, displaced_s2)
+    local scale = 9.80665--[[STANDARD_GRAVITY_M_S2]] * displaced_s2 / law.length(state.hx, state.hy)
+    return with_fields(state, {x = state.x + scale * state.hy, y = state.y - scale * state.hx})
 end
 
 -- The counter-clockwise rotation from direction (ax, ay) to (bx, by); by zero where one of them is zero.
@@ -1645,8 +1660,8 @@ function law.advance_plan(memory, settings)
     while true do
         leads = law.leads_to(limits, leads, {bank_deg = estimate.bank_deg, rate_deg_s =
                 memory.sensing.bank_rate_deg_s}, route)
-        state = law.relative_state(settings, law.estimate_after(law.turning_more(estimate, leads.more),
-                leads.current_s))
+        local later = law.estimate_after(law.turning_more(estimate, leads.more), leads.current_s)
+        state = law.displaced(law.relative_state(settings, later), estimate.turning.ratio * leads.displaced_s2)
         left_s = law.remaining_s(route, state, left_s)
         early_s = law.early_end_s(route, leads)
         if law.is_holding(route) or left_s > early_s + 0.000131072--[[ROUNDING_S]] then
@@ -1673,9 +1688,108 @@ function law.advance_plan(memory, settings)
             offset = law.offset_of(route, state, settings.radius_m), early_s = early_s}})
 end
 
+-- The same by gusts along the flight since `restart_gusts`: a slip that changes with the bank does not count.
+function law.along_roughness(observer)
+    local near, far, along = observer.air.near, observer.air.far, observer.air.along
+    return law.course_change(observer, {time_s = near.time_s, square = along.near_square}, {time_s = far.time_s,
+            square = along.far_square})
+end
+
 -- Whether the last turn of the plan is opposite to that of the circle.
 function law.reverses(route)
     return route.last_u == route.side
+end
+
+-- The turn from (x, y) along (c, s), opposite to the circle, that ends where it is closest to the circle.
+function law._last_turn(u, x, y, c, s, r, speed)
+    local centre_x, centre_y = x - u * r * s, y + u * r * c
+    local scale = 1.0 - r / law.length(centre_x, centre_y)
+    local end_x, end_y = scale * centre_x, scale * centre_y
+    local turned = law.angle({law.arc_rotation(u, x - centre_x, y - centre_y, end_x - centre_x, end_y - centre_y)})
+    return {u = u, x = centre_x, y = centre_y, c = c, s = s, end_x = end_x, end_y = end_y, time_s = turned * r /
+            speed, radius_m = r}
+end
+
+-- The route with its line, parallel to the present one, through a state, and another last turn, in still air.
+--
+-- The route as it is where that turn, as wide as planned and opposite to the circle, cannot end on the circle.
+function law.with_last_line(route, state, circle_m)
+    local r, c, s, u, V = route.turn_radius_m, route.current.c, route.current.s, route.second.u, route.speed_m_s
+    local centre_x, centre_y, reach_m = state.x - u * r * s, state.y + u * r * c, circle_m + r
+    local along_m, beside_m = c * centre_x + s * centre_y, c * centre_y - s * centre_x
+    if abs(beside_m) >= reach_m then
+        return route
+    end
+    local left_m = -along_m - sqrt(reach_m * reach_m - beside_m * beside_m)
+    local end_x, end_y = state.x + left_m * c, state.y + left_m * s
+    local line = {u = 0, x = state.x, y = state.y, c = c, s = s, end_x = end_x, end_y = end_y, time_s = left_m / V,
+            radius_m = r}
+    return with_fields(route, {current = line, second = law._last_turn(u, end_x, end_y, c, s, r, V)})
+end
+
+-- The radius of the turn, opposite to the circle, that leads in still air from a state onto the circle; metres.
+--
+-- The centre of the turn, p + r n with the unit vector n towards it, is r plus the radius of the circle away from
+-- that of the circle. The result is not positive where there is no such turn.
+function law.last_radius_m(route, state, circle_m)
+    local vx, vy = law.flight_velocity(state.vx, state.vy, state.hx, state.hy)
+    local ahead_m = circle_m - route.current.u * (state.y * vx - state.x * vy) / law.length(vx, vy)
+    return ahead_m > 0.0 and 0.5 * (state.x * state.x + state.y * state.y - circle_m * circle_m) / ahead_m or 0.0
+end
+
+-- The route with another last turn, in still air, that begins at a state.
+function law.with_last_turn(route, state, radius_m)
+    local vx, vy = law.flight_velocity(state.vx, state.vy, state.hx, state.hy)
+    local speed = law.length(vx, vy)
+    local turn = law._last_turn(route.current.u, state.x, state.y, vx / speed, vy / speed, radius_m,
+            route.speed_m_s)
+    return with_fields(route, {current = turn})
+end
+
+-- The plan along a new route, which joins at a time.
+function law.plan_along(plan, route, join_s)
+    return with_fields(plan, {route = route, remaining_s = route.current.time_s, join_s = join_s})
+end
+
+-- The memory with a plan whose last turn, where that is opposite to the circle, is aimed again from the response.
+--
+-- Until a plan that is better comes, the aircraft would miss the circle by its distance from the present one. In
+-- still air the line before that turn is moved to the aircraft, and the radius of the turn itself follows from the
+-- state; it is the tightest one where that is too wide. In heavy gusts the last plan is followed: the aim would
+-- move with them.
+function law.aim_again(memory, settings)
+    local limits, state, plan = memory.sensing.limits, memory.response.state, memory.plan
+    local route = memory.plan.route
+    local is_still = route.wind_east_m_s == 0.0 and route.wind_north_m_s == 0.0
+    local is_calm = law.along_roughness(memory.sensing.observer) <= 0.04--[[HEAVY_GUSTS]]
+    if law.is_holding(route) or route.third.u ~= -2--[[ABSENT]] or not (is_still and is_calm and
+            law.reverses(route)) then
+        return memory
+    end
+    local circle_m = settings.radius_m + limits.reversal_m
+    if route.second.u ~= -2--[[ABSENT]] then
+        if route.current.u ~= 0 then
+            return memory
+        end
+        route = law.with_last_line(route, state, circle_m)
+    else
+        local radius_m = law.last_radius_m(route, state, circle_m)
+        if not (0.0 < radius_m and radius_m < 8.0--[[WIDEST_AIMED]] * limits.turns.planned_m) then
+            return memory
+        end
+        route = law.with_last_turn(route, state, max(radius_m, limits.turns.tightest_m))
+        local missed_m = law.length(route.current.end_x, route.current.end_y) - circle_m
+        if abs(missed_m) > 0.5--[[LOST_OFFSET]] * limits.turns.planned_m then
+            return memory
+        end
+    end
+    local left_s, whole_s = route.current.time_s, route.current.time_s + law.later_s(route)
+    local later = whole_s - plan.remaining_s - law.later_s(plan.route)
+    if left_s < 0.2--[[AIMED_LEFT_S]] + memory.response.early_s or abs(later) > 1.0--[[AIM_CHANGE_S]] then
+        return memory
+    end
+    memory = with_fields(memory, {plan = law.plan_along(plan, route, state.time_s + whole_s)})
+    return law.advance_plan(memory, settings)
 end
 
 -- The plan with the time of the last search.
@@ -1697,6 +1811,7 @@ function law.reconsider(memory, settings)
             then
         return memory
     end
+    memory = law.aim_again(memory, settings)
     local limits, offset, plan = memory.sensing.limits, memory.response.offset, memory.plan
     local r, V = limits.turns.planned_m, limits.turns.airspeed_m_s
     local holding = law.is_holding(plan.route)
@@ -2357,6 +2472,13 @@ function law.ends_with(entry, word, bend_s)
     return law.rest(without_first) == word and entry.t1_s + entry.t2_s <= bend_s
 end
 
+-- Whether an entry has the first and the last control of a route.
+function law.is_alike(entry, route)
+    local u1, u2, u3 = law.controls(entry.word)
+    return u1 == route.current.u and (u3 ~= -2--[[ABSENT]] and u3 or u2 ~= -2--[[ABSENT]] and u2 or u1) ==
+            law.last_control(route)
+end
+
 -- The time until the circle is joined.
 function law.duration_s(entry)
     return entry.t1_s + entry.t2_s + entry.t3_s
@@ -2366,14 +2488,18 @@ end
 --
 -- Either `update` holds, and it is the same plan and not much slower; or it is faster by a margin.
 --
--- In wind additional pieces at its beginning, together no longer than `LONGEST_BEND`, do not make it a different
--- plan. The duration of a plan with tighter turns grows with their radius.
+-- In still air a plan with the same first and last turns is the same one, whether there is a line between them or
+-- not. In wind additional pieces at its beginning, together no longer than `LONGEST_BEND`, do not make it a
+-- different plan. The duration of a plan with tighter turns grows with their radius.
 function law.is_better(entry, plan, turns, update, passed_s)
     local route, unit_s = plan.route, turns.planned_m / turns.airspeed_m_s
     local is_still = entry.wind_east_m_s == 0.0 and entry.wind_north_m_s == 0.0
     local left = law.encode(route.current.u, route.second.u, route.third.u)
     local same = entry.side == route.side and law.ends_with(entry, left, is_still and 0.0 or 0.1--[[LONGEST_BEND]] *
             unit_s)
+    if is_still and update and entry.side == route.side then
+        same = same or law.is_alike(entry, route)
+    end
     if same and not update then
         return false
     end
@@ -2453,13 +2579,6 @@ function law.path_velocity(route, state)
     return law.flight_velocity(state.vx - east, state.vy - north, state.hx, state.hy)
 end
 
--- The same by gusts along the flight since `restart_gusts`: a slip that changes with the bank does not count.
-function law.along_roughness(observer)
-    local near, far, along = observer.air.near, observer.air.far, observer.air.along
-    return law.course_change(observer, {time_s = near.time_s, square = along.near_square}, {time_s = far.time_s,
-            square = along.far_square})
-end
-
 -- The gain of course corrections in the present air; on the circle, which turns at `turn_rate`, it is smaller.
 --
 -- It is larger in heavy gusts, and smaller where quick turns are quicker than the bank says.
@@ -2468,7 +2587,7 @@ function law.corrections_gain(settings, known, observer, response_s, turn_rate, 
     local rough, share
     if holding then
         rough = law.along_roughness(observer)
-        local calm_rate = max(1.3--[[HOLD_RATE]], 4.0--[[HOLD_MULTIPLE]] * 1.2--[[HOLD_GAIN]] * turn_rate)
+        local calm_rate = max(1.3--[[HOLD_RATE]], 6.0--[[HOLD_MULTIPLE]] * 1.2--[[HOLD_GAIN]] * turn_rate)
         local calm_share = max(min(calm_rate * response_s / gain, 0.75--[[CALM_GAIN]]), 0.35--[[CALM_HOLD_GAIN]])
         share = max(min(rough / 0.02--[[ROUGH_HOLD]] * (rough / 0.02--[[ROUGH_HOLD]]), 1.0), calm_share)
     else

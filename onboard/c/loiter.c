@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 48f0b45dd3fff2a51590c8c9d151e9717a0b28dbc19f85ba67a1ff445c32ce04
+ * SHA-256 of the source: 85e475fd358da0a580cb72eef781b040c6cc08d0b00784b51d6616ce2095a796
  */
 #include "loiter.h"
 
@@ -691,7 +691,7 @@ static const AlongFlight CALM_ALONG = {REAL(0.0), REAL(0.0), REAL(3.0)};
 static const Estimate NO_ESTIMATE = {-REAL_INFINITY, {REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0)}, REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), {REAL(1.0), REAL(0.0)}};
 static const Clock FIRST_CLOCK = {-REAL_INFINITY, REAL(0.0), REAL_INFINITY, REAL(0.0), REAL_NAN, REAL_NAN};
 static const Plan NO_PLAN = {{0, {-2, REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(1.0)}, {-2, REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(1.0)}, {-2, REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(1.0)}, REAL(0.0), -2, REAL(0.0), REAL(1.0), REAL(1.0), REAL(0.0), REAL(0.0)}, REAL(0.0), REAL_INFINITY, REAL_INFINITY, -REAL_INFINITY};
-static const Leads NO_LEADS = {-1000000000, 0, 0, 0, 0, REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)};
+static const Leads NO_LEADS = {-1000000000, 0, 0, 0, 0, REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)};
 static const ResponsePoint NO_RESPONSE = {{REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)}, {REAL(0.0), REAL(0.0), REAL(0.0)}, REAL(0.0)};
 static const EntrySearch NO_ENTRY_SEARCH = {0, {REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)}, {REAL(1.0), REAL(1.0), REAL(1.0)}, REAL(0.0), REAL(0.0), REAL(1.0), REAL(1.0), 0, false, false, false, {0, 0, 1, {REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0), REAL(1.0), REAL(0.0), REAL(0.0), REAL(0.0)}, {REAL(0.0), 0, {REAL_INFINITY, 0, REAL(0.0), REAL(0.0), REAL(0.0), REAL(1.0), REAL(1.0), REAL(0.0)}}, {{0, 0, REAL_INFINITY, REAL(0.0), REAL(0.0)}, REAL(0.0), REAL_INFINITY}, {0, 0, 63}, {-2, {REAL(0.0), {REAL_INFINITY, 0, REAL(0.0), REAL(0.0), REAL(0.0), REAL(1.0), REAL(1.0), REAL(0.0)}, REAL(0.0)}}, {0, 0, 0, 0}, {0, 0, 0, 0}, {REAL(0.0), 0, REAL(0.0), REAL(0.0)}, REAL_INFINITY, 0, {0, 0, REAL(0.0), {REAL(0.0), {REAL_INFINITY, 0, REAL(0.0), REAL(0.0), REAL(0.0), REAL(1.0), REAL(1.0), REAL(0.0)}, REAL(0.0)}, {REAL(0.0), {REAL_INFINITY, 0, REAL(0.0), REAL(0.0), REAL(0.0), REAL(1.0), REAL(1.0), REAL(0.0)}, REAL(0.0)}, {REAL(0.0), {REAL_INFINITY, 0, REAL(0.0), REAL(0.0), REAL(0.0), REAL(1.0), REAL(1.0), REAL(0.0)}, REAL(0.0)}, 0, false, 0, 0}, {0, REAL(0.0), REAL(0.0)}, 0, {12, 0, 0, REAL_NAN, REAL_NAN, REAL_NAN, REAL_NAN, REAL_NAN}}};
 
@@ -779,10 +779,21 @@ static const RoutePiece NO_PIECE = {-2, REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.
 /* Rates of the bank count in steps of so many half degrees per second. */
 #define RATE_STEPS REAL(4.0)
 
+/* In heavy gusts it rises in proportion to them, from this angle on and up to this multiple. */
+#define HEAVY_GUSTS REAL(0.04)
+
+/* The last turn, where it is opposite to the circle, is aimed again from the present state as long as so much of
+ * the present piece is left, seconds, the turn is no wider than this multiple of a planned one, and the time to
+ * join changes by no more than the third number, seconds.
+ */
+#define WIDEST_AIMED REAL(8.0)
+
 /* Beyond this crosstrack error, turn radii, or course error, radians, the aircraft is lost: any new plan is
  * accepted.
  */
 #define LOST_OFFSET REAL(0.5)
+#define AIMED_LEFT_S REAL(0.2)
+#define AIM_CHANGE_S REAL(1.0)
 #define LOST_COURSE REAL(1.0)
 #define ANY 2
 
@@ -816,7 +827,7 @@ static const Entry NONE = {0, 0, REAL(0.0), REAL(0.0), REAL(0.0)};
  * where that changes would swing about the circle otherwise.
  */
 #define HOLD_RATE REAL(1.3)
-#define HOLD_MULTIPLE REAL(4.0)
+#define HOLD_MULTIPLE REAL(6.0)
 
 /* On the circle crosstrack errors are corrected over an arc of 1/HOLD_GAIN radians, so that the intercept angle
  * depends only on the ratio of the error to the radius.
@@ -830,9 +841,6 @@ static const Entry NONE = {0, 0, REAL(0.0), REAL(0.0), REAL(0.0)};
 #define CALM_HOLD_GAIN REAL(0.35)
 #define ROUGH_HOLD REAL(0.02)
 #define ROUGH_AIR REAL(0.02)
-
-/* In heavy gusts it rises in proportion to them, from this angle on and up to this multiple. */
-#define HEAVY_GUSTS REAL(0.04)
 #define HEAVY_GAIN REAL(1.5)
 
 /* The gains of course and crosstrack corrections, to be divided by the response time: the delay of a change of bank
@@ -4632,7 +4640,8 @@ static inline Leads leads_to(const Limits *limits, const Leads *leads, Bank now,
     now = MAKE(Bank){REAL(0.5) * (real)bank, REAL(0.5) * RATE_STEPS * (real)rate};
     const real there = real_tan(now.bank_deg * REAL(0.017453292519943295));
     const real first_s = small_onset(roll).lead_s;
-    const real first_missing_s = turn_delay(roll, now, REAL(0.5) * (real)first, limit_deg).missing_s;
+    const TurnDelay first_delay = turn_delay(roll, now, REAL(0.5) * (real)first, limit_deg);
+    const real first_missing_s = first_delay.missing_s;
     const real tangent = real_tan(REAL(0.5) * (real)first * REAL(0.017453292519943295));
     /* Where the bank goes without a command. */
     const real coasted_deg = clip(now.bank_deg + coasting_s(roll) * now.rate_deg_s, limit_deg);
@@ -4647,7 +4656,8 @@ static inline Leads leads_to(const Limits *limits, const Leads *leads, Bank now,
             REAL(0.0);
     const real next_s = change_delay_s(roll, now, limit_deg, first, first_missing_s, second) - current_s;
     const real last_s = change_delay_s(roll, now, limit_deg, first, first_missing_s, last) - current_s;
-    return MAKE(Leads){bank, rate, first, second, last, current_s, more, next_s, last_s};
+    const real displaced_s2 = first_delay.moment_s2 - REAL(0.5) * first_missing_s * current_s;
+    return MAKE(Leads){bank, rate, first, second, last, current_s, more, next_s, last_s, displaced_s2};
 }
 
 /* The estimate with a turn rate that is larger by `more` g/V, positive to the right. */
@@ -4656,6 +4666,15 @@ static inline Estimate turning_more(const Estimate *estimate, real more) {
     const real rate = estimate->turn_rate - estimate->turning.ratio * STANDARD_GRAVITY_M_S2 * more / V;
     Estimate changed_1 = (*estimate);
     changed_1.turn_rate = rate;
+    return changed_1;
+}
+
+/* The state displaced to the right by so many times standard gravity. */
+static inline RelativeState displaced(const RelativeState *state, real displaced_s2) {
+    const real scale = STANDARD_GRAVITY_M_S2 * displaced_s2 / length(state->hx, state->hy);
+    RelativeState changed_1 = (*state);
+    changed_1.x = state->x + scale * state->hy;
+    changed_1.y = state->y - scale * state->hx;
     return changed_1;
 }
 
@@ -4764,8 +4783,9 @@ static inline void advance_plan(Memory *memory, const Settings *settings) {
     while (true) {
         leads = leads_to(&limits, &leads, MAKE(Bank){estimate.bank_deg, memory->sensing.bank_rate_deg_s}, &route);
         const Estimate stored_1 = turning_more(&estimate, leads.more);
-        const Estimate stored_2 = estimate_after(&stored_1, leads.current_s);
-        state = relative_state(settings, &stored_2);
+        const Estimate later = estimate_after(&stored_1, leads.current_s);
+        const RelativeState stored_2 = relative_state(settings, &later);
+        state = displaced(&stored_2, estimate.turning.ratio * leads.displaced_s2);
         left_s = remaining_s(&route, &state, left_s);
         early_s = early_end_s(&route, &leads);
         if (is_holding(&route) || left_s > early_s + ROUNDING_S) {
@@ -4798,9 +4818,126 @@ static inline void advance_plan(Memory *memory, const Settings *settings) {
     return;
 }
 
+/* The same by gusts along the flight since `restart_gusts`: a slip that changes with the bank does not count. */
+static inline real along_roughness(const Observer *observer) {
+    const Difference near = observer->air.near, far = observer->air.far;
+    const AlongFlight along = observer->air.along;
+    return course_change(observer, MAKE(Difference){near.time_s, along.near_square}, MAKE(Difference){far.time_s,
+            along.far_square});
+}
+
 /* Whether the last turn of the plan is opposite to that of the circle. */
 static inline bool reverses(const Route *route) {
     return route->last_u == route->side;
+}
+
+/* The turn from (x, y) along (c, s), opposite to the circle, that ends where it is closest to the circle. */
+static inline RoutePiece _last_turn(integer u, real x, real y, real c, real s, real r, real speed) {
+    const real centre_x = x - (real)u * r * s, centre_y = y + (real)u * r * c;
+    const real scale = REAL(1.0) - r / length(centre_x, centre_y);
+    const real end_x = scale * centre_x, end_y = scale * centre_y;
+    const real turned = angle(arc_rotation(u, x - centre_x, y - centre_y, end_x - centre_x, end_y - centre_y));
+    return MAKE(RoutePiece){u, centre_x, centre_y, c, s, end_x, end_y, turned * r / speed, r};
+}
+
+/* The route with its line, parallel to the present one, through a state, and another last turn, in still air.
+ *
+ * The route as it is where that turn, as wide as planned and opposite to the circle, cannot end on the circle.
+ */
+static inline void with_last_line(Route *route, const RelativeState *state, real circle_m) {
+    const real r = route->turn_radius_m, c = route->current.c, s = route->current.s;
+    const integer u = route->second.u;
+    const real V = route->speed_m_s;
+    const real centre_x = state->x - (real)u * r * s, centre_y = state->y + (real)u * r * c, reach_m = circle_m
+            + r;
+    const real along_m = c * centre_x + s * centre_y, beside_m = c * centre_y - s * centre_x;
+    if (real_fabs(beside_m) >= reach_m) {
+        return;
+    }
+    const real left_m = -along_m - real_sqrt(reach_m * reach_m - beside_m * beside_m);
+    const real end_x = state->x + left_m * c, end_y = state->y + left_m * s;
+    const RoutePiece line = MAKE(RoutePiece){0, state->x, state->y, c, s, end_x, end_y, left_m / V, r};
+    route->current = line;
+    route->second = _last_turn(u, end_x, end_y, c, s, r, V);
+    return;
+}
+
+/* The radius of the turn, opposite to the circle, that leads in still air from a state onto the circle; metres.
+ *
+ * The centre of the turn, p + r n with the unit vector n towards it, is r plus the radius of the circle away from
+ * that of the circle. The result is not positive where there is no such turn.
+ */
+static inline real last_radius_m(const Route *route, const RelativeState *state, real circle_m) {
+    const real_2 flight_velocity_1 = flight_velocity(state->vx, state->vy, state->hx, state->hy);
+    const real vx = flight_velocity_1.a0, vy = flight_velocity_1.a1;
+    const real ahead_m = circle_m - (real)route->current.u * (state->y * vx - state->x * vy) / length(vx, vy);
+    return ahead_m > REAL(0.0) ? REAL(0.5) * (state->x * state->x + state->y * state->y - circle_m *
+            circle_m) / ahead_m : REAL(0.0);
+}
+
+/* The route with another last turn, in still air, that begins at a state. */
+static inline void with_last_turn(Route *route, const RelativeState *state, real radius_m) {
+    const real_2 flight_velocity_1 = flight_velocity(state->vx, state->vy, state->hx, state->hy);
+    const real vx = flight_velocity_1.a0, vy = flight_velocity_1.a1;
+    const real speed = length(vx, vy);
+    const RoutePiece turn = _last_turn(route->current.u, state->x, state->y, vx / speed, vy / speed, radius_m,
+            route->speed_m_s);
+    route->current = turn;
+    return;
+}
+
+/* The plan along a new route, which joins at a time. */
+static inline void plan_along(Plan *plan, const Route *route, real join_s) {
+    plan->route = (*route);
+    plan->remaining_s = route->current.time_s;
+    plan->join_s = join_s;
+    return;
+}
+
+/* The memory with a plan whose last turn, where that is opposite to the circle, is aimed again from the response.
+ *
+ * Until a plan that is better comes, the aircraft would miss the circle by its distance from the present one. In
+ * still air the line before that turn is moved to the aircraft, and the radius of the turn itself follows from the
+ * state; it is the tightest one where that is too wide. In heavy gusts the last plan is followed: the aim would
+ * move with them.
+ */
+static inline void aim_again(Memory *memory, const Settings *settings) {
+    const Limits limits = memory->sensing.limits;
+    const RelativeState state = memory->response.state;
+    const Plan plan = memory->plan;
+    Route route = memory->plan.route;
+    const bool is_still = route.wind_east_m_s == REAL(0.0) && route.wind_north_m_s == REAL(0.0);
+    const bool is_calm = along_roughness(&memory->sensing.observer) <= HEAVY_GUSTS;
+    if (is_holding(&route) || route.third.u != ABSENT || !(is_still && is_calm && reverses(&route))) {
+        return;
+    }
+    const real circle_m = settings->radius_m + limits.reversal_m;
+    if (route.second.u != ABSENT) {
+        if (route.current.u != 0) {
+            return;
+        }
+        with_last_line(&route, &state, circle_m);
+    } else {
+        const real radius_m = last_radius_m(&route, &state, circle_m);
+        if (!(REAL(0.0) < radius_m && radius_m < WIDEST_AIMED * limits.turns.planned_m)) {
+            return;
+        }
+        with_last_turn(&route, &state, max_real(radius_m, limits.turns.tightest_m));
+        const real missed_m = length(route.current.end_x, route.current.end_y) - circle_m;
+        if (real_fabs(missed_m) > LOST_OFFSET * limits.turns.planned_m) {
+            return;
+        }
+    }
+    const real left_s = route.current.time_s, whole_s = route.current.time_s + later_s(&route);
+    const real later = whole_s - plan.remaining_s - later_s(&plan.route);
+    if (left_s < AIMED_LEFT_S + memory->response.early_s || real_fabs(later) > AIM_CHANGE_S) {
+        return;
+    }
+    Plan changed_1 = plan;
+    plan_along(&changed_1, &route, state.time_s + whole_s);
+    memory->plan = changed_1;
+    advance_plan(memory, settings);
+    return;
 }
 
 /* The plan with the time of the last search. */
@@ -4824,6 +4961,7 @@ static inline void reconsider(Memory *memory, const Settings *settings) {
     if (is_given || memory->search.aim != NOTHING || !is_search_due(&memory->sensing.clock, &memory->plan)) {
         return;
     }
+    aim_again(memory, settings);
     const Limits limits = memory->sensing.limits;
     const PathOffset offset = memory->response.offset;
     const Plan plan = memory->plan;
@@ -5006,6 +5144,13 @@ static inline bool ends_with(const PlannedEntry *entry, integer word, real bend_
     return rest(without_first) == word && entry->t1_s + entry->t2_s <= bend_s;
 }
 
+/* Whether an entry has the first and the last control of a route. */
+static inline bool is_alike(const PlannedEntry *entry, const Route *route) {
+    const integer_3 controls_1 = controls(entry->word);
+    const integer u1 = controls_1.a0, u2 = controls_1.a1, u3 = controls_1.a2;
+    return u1 == route->current.u && (u3 != ABSENT ? u3 : u2 != ABSENT ? u2 : u1) == last_control(route);
+}
+
 /* The time until the circle is joined. */
 static inline real duration_s(const PlannedEntry *entry) {
     return entry->t1_s + entry->t2_s + entry->t3_s;
@@ -5015,8 +5160,9 @@ static inline real duration_s(const PlannedEntry *entry) {
  *
  * Either `update` holds, and it is the same plan and not much slower; or it is faster by a margin.
  *
- * In wind additional pieces at its beginning, together no longer than `LONGEST_BEND`, do not make it a different
- * plan. The duration of a plan with tighter turns grows with their radius.
+ * In still air a plan with the same first and last turns is the same one, whether there is a line between them or
+ * not. In wind additional pieces at its beginning, together no longer than `LONGEST_BEND`, do not make it a
+ * different plan. The duration of a plan with tighter turns grows with their radius.
  */
 static inline bool is_better(const PlannedEntry *entry, const Plan *plan, TurnLimits turns, bool update, real
         passed_s) {
@@ -5024,8 +5170,10 @@ static inline bool is_better(const PlannedEntry *entry, const Plan *plan, TurnLi
     const real unit_s = turns.planned_m / turns.airspeed_m_s;
     const bool is_still = entry->wind_east_m_s == REAL(0.0) && entry->wind_north_m_s == REAL(0.0);
     const integer left = encode(route.current.u, route.second.u, route.third.u);
-    const bool same = entry->side == route.side && ends_with(entry, left, is_still ? REAL(0.0) : LONGEST_BEND *
-            unit_s);
+    bool same = entry->side == route.side && ends_with(entry, left, is_still ? REAL(0.0) : LONGEST_BEND * unit_s);
+    if (is_still && update && entry->side == route.side) {
+        same = same || is_alike(entry, &route);
+    }
     if (same && !update) {
         return false;
     }
@@ -5115,14 +5263,6 @@ static inline real_2 path_velocity(const Route *route, const RelativeState *stat
     }
     const real east = route->wind_east_m_s, north = route->wind_north_m_s;
     return flight_velocity(state->vx - east, state->vy - north, state->hx, state->hy);
-}
-
-/* The same by gusts along the flight since `restart_gusts`: a slip that changes with the bank does not count. */
-static inline real along_roughness(const Observer *observer) {
-    const Difference near = observer->air.near, far = observer->air.far;
-    const AlongFlight along = observer->air.along;
-    return course_change(observer, MAKE(Difference){near.time_s, along.near_square}, MAKE(Difference){far.time_s,
-            along.far_square});
 }
 
 /* The gain of course corrections in the present air; on the circle, which turns at `turn_rate`, it is smaller.

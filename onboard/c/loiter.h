@@ -6,7 +6,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 48f0b45dd3fff2a51590c8c9d151e9717a0b28dbc19f85ba67a1ff445c32ce04
+ * SHA-256 of the source: 85e475fd358da0a580cb72eef781b040c6cc08d0b00784b51d6616ce2095a796
  */
 #ifndef LOITER_ONBOARD_H
 #define LOITER_ONBOARD_H
@@ -229,8 +229,8 @@ typedef struct { loiter_integer u; loiter_real time_s, radius_m; } loiter_PathPi
 typedef struct { loiter_PathPiece at[12]; } loiter_PathPiece_ring_12;
 typedef struct { loiter_PathPiece_ring_12 *pieces; loiter_integer total, taken; loiter_real c, s; }
         loiter_GivenPath;
-typedef struct { loiter_integer bank, rate, current, next, last; loiter_real current_s, more, next_s, last_s; }
-        loiter_Leads;
+typedef struct { loiter_integer bank, rate, current, next, last; loiter_real current_s, more, next_s, last_s,
+        displaced_s2; } loiter_Leads;
 typedef struct { loiter_real time_s, x, y, vx, vy, hx, hy; } loiter_RelativeState;
 typedef struct { loiter_real crosstrack, course_error, path_rate; } loiter_PathOffset;
 typedef struct { loiter_RelativeState state; loiter_PathOffset offset; loiter_real early_s; } loiter_ResponsePoint;

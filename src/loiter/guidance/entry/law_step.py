@@ -32,6 +32,7 @@ from loiter.guidance.entry.route import (
     by_clock,
     is_holding,
     last_control,
+    last_radius_m,
     later_s,
     next_on,
     no_path,
@@ -40,6 +41,8 @@ from loiter.guidance.entry.route import (
     remaining_s,
     reverses,
     route_of,
+    with_last_line,
+    with_last_turn,
 )
 from loiter.guidance.estimation.bank_history import (
     BankHistory,
@@ -112,7 +115,7 @@ CALM_GAIN, ROUGH_AIR = 0.75, 0.02
 # crosstrack errors are, but not below the last share. It rises with the square of the gusts, to the whole where they
 # change the course by `ROUGH_HOLD` in a second. A vehicle that turns more quickly than its bank says where that changes
 # would swing about the circle otherwise.
-HOLD_RATE, HOLD_MULTIPLE, CALM_HOLD_GAIN, ROUGH_HOLD = 1.3, 4.0, 0.35, 0.02
+HOLD_RATE, HOLD_MULTIPLE, CALM_HOLD_GAIN, ROUGH_HOLD = 1.3, 6.0, 0.35, 0.02
 
 # In heavy gusts it rises in proportion to them, from this angle on and up to this multiple.
 HEAVY_GUSTS, HEAVY_GAIN = 0.04, 1.5
@@ -132,6 +135,11 @@ SWITCH_MARGIN, UPDATE_MARGIN = 0.25, 0.25
 
 # The interval between searches for another plan, seconds.
 SEARCH_INTERVAL_S = 0.1
+
+# The last turn, where it is opposite to the circle, is aimed again from the present state as long as so much of the
+# present piece is left, seconds, the turn is no wider than this multiple of a planned one, and the time to join changes
+# by no more than the third number, seconds.
+AIMED_LEFT_S, WIDEST_AIMED, AIM_CHANGE_S = 0.2, 8.0, 1.0
 
 # In wind a new plan counts as the same one if it differs only by a first turn back to the path that is no longer than
 # `LONGEST_BEND`, turn radii. It is not adopted before the crosstrack error or the change of the time to join exceeds
@@ -290,8 +298,8 @@ class Leads(NamedTuple):
     """Delays of changes from a bank, at a rate, to those of the current, the next and the last piece.
 
     Banks are in half degrees. The present command takes effect after `current_s`; until then the turn rate is larger
-    than the present one by `more` g/V. The next bank must be commanded `next_s` before the current piece ends, that of
-    the last one `last_s`.
+    than the present one by `more` g/V, and the aircraft is displaced to the right by `displaced_s2` g. The next bank
+    must be commanded `next_s` before the current piece ends, that of the last one `last_s`.
     """
 
     bank: int
@@ -303,9 +311,10 @@ class Leads(NamedTuple):
     more: float
     next_s: float
     last_s: float
+    displaced_s2: float
 
 
-NO_LEADS = Leads(NO_BANK, 0, 0, 0, 0, 0.0, 0.0, 0.0, 0.0)
+NO_LEADS = Leads(NO_BANK, 0, 0, 0, 0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 class LawCommand(NamedTuple):
@@ -620,7 +629,8 @@ def leads_to(limits: Limits, leads: Leads, now: Bank, route: Route) -> Leads:
     now = Bank(0.5 * bank, 0.5 * RATE_STEPS * rate)
     there = tan(radians(now.bank_deg))
     first_s = small_onset(roll).lead_s
-    first_missing_s = turn_delay(roll, now, 0.5 * first, limit_deg).missing_s
+    first_delay = turn_delay(roll, now, 0.5 * first, limit_deg)
+    first_missing_s = first_delay.missing_s
     tangent = tan(radians(0.5 * first))
     # Where the bank goes without a command.
     coasted_deg = clip(now.bank_deg + coasting_s(roll) * now.rate_deg_s, limit_deg)
@@ -632,7 +642,8 @@ def leads_to(limits: Limits, leads: Leads, now: Bank, route: Route) -> Leads:
     more = tangent - first_missing_s / current_s - there if current_s > 0.0 and first != bank else 0.0
     next_s = change_delay_s(roll, now, limit_deg, first, first_missing_s, second) - current_s
     last_s = change_delay_s(roll, now, limit_deg, first, first_missing_s, last) - current_s
-    return Leads(bank, rate, first, second, last, current_s, more, next_s, last_s)
+    displaced_s2 = first_delay.moment_s2 - 0.5 * first_missing_s * current_s
+    return Leads(bank, rate, first, second, last, current_s, more, next_s, last_s, displaced_s2)
 
 
 def change_delay_s(
@@ -711,7 +722,8 @@ def advance_plan(memory: Memory, settings: Settings) -> Memory:
     # Pieces are dropped that are complete, in a plan of its own at most three.
     while True:
         leads = leads_to(limits, leads, Bank(estimate.bank_deg, memory.sensing.bank_rate_deg_s), route)
-        state = relative_state(settings, estimate_after(turning_more(estimate, leads.more), leads.current_s))
+        later = estimate_after(turning_more(estimate, leads.more), leads.current_s)
+        state = displaced(relative_state(settings, later), estimate.turning.ratio * leads.displaced_s2)
         left_s, early_s = remaining_s(route, state, left_s), early_end_s(route, leads)
         if is_holding(route) or left_s > early_s + ROUNDING_S:
             break
@@ -734,6 +746,12 @@ def advance_plan(memory: Memory, settings: Settings) -> Memory:
     )
 
 
+def displaced(state: RelativeState, displaced_s2: float) -> RelativeState:
+    """The state displaced to the right by so many times standard gravity."""
+    scale = STANDARD_GRAVITY_M_S2 * displaced_s2 / length(state.hx, state.hy)
+    return state._replace(x=state.x + scale * state.hy, y=state.y - scale * state.hx)
+
+
 def measure_gusts_anew(sensing: Sensing) -> Sensing:
     """What is known, without the gusts: the turns before the circle look like gusts."""
     return sensing._replace(observer=restart_gusts(sensing.observer))
@@ -753,6 +771,7 @@ def reconsider(memory: Memory, settings: Settings) -> Memory:
     is_given = memory.path.total > 0
     if is_given or memory.search.aim != NOTHING or not is_search_due(memory.sensing.clock, memory.plan):
         return memory
+    memory = aim_again(memory, settings)
     limits, offset, plan = memory.sensing.limits, memory.response.offset, memory.plan
     r, V = limits.turns.planned_m, limits.turns.airspeed_m_s
     holding = is_holding(plan.route)
@@ -767,6 +786,44 @@ def reconsider(memory: Memory, settings: Settings) -> Memory:
     deviates = max(abs(offset.crosstrack), later_m) > DEVIATION * r
     is_still = limits.wind_east_m_s == 0.0 and limits.wind_north_m_s == 0.0
     return begin_plan_search(memory, settings, UPDATE if deviates or is_still else BETTER, memory.response.state)
+
+
+def aim_again(memory: Memory, settings: Settings) -> Memory:
+    """The memory with a plan whose last turn, where that is opposite to the circle, is aimed again from the response.
+
+    Until a plan that is better comes, the aircraft would miss the circle by its distance from the present one. In still
+    air the line before that turn is moved to the aircraft, and the radius of the turn itself follows from the state; it
+    is the tightest one where that is too wide. In heavy gusts the last plan is followed: the aim would move with them.
+    """
+    limits, state, plan, route = memory.sensing.limits, memory.response.state, memory.plan, memory.plan.route
+    is_still = route.wind_east_m_s == 0.0 and route.wind_north_m_s == 0.0
+    is_calm = along_roughness(memory.sensing.observer) <= HEAVY_GUSTS
+    if is_holding(route) or route.third.u != ABSENT or not (is_still and is_calm and reverses(route)):
+        return memory
+    circle_m = settings.radius_m + limits.reversal_m
+    if route.second.u != ABSENT:
+        if route.current.u != 0:
+            return memory
+        route = with_last_line(route, state, circle_m)
+    else:
+        radius_m = last_radius_m(route, state, circle_m)
+        if not 0.0 < radius_m < WIDEST_AIMED * limits.turns.planned_m:
+            return memory
+        route = with_last_turn(route, state, max(radius_m, limits.turns.tightest_m))
+        missed_m = length(route.current.end_x, route.current.end_y) - circle_m
+        if abs(missed_m) > LOST_OFFSET * limits.turns.planned_m:
+            return memory
+    left_s, whole_s = route.current.time_s, route.current.time_s + later_s(route)
+    later = whole_s - plan.remaining_s - later_s(plan.route)
+    if left_s < AIMED_LEFT_S + memory.response.early_s or abs(later) > AIM_CHANGE_S:
+        return memory
+    memory = memory._replace(plan=plan_along(plan, route, state.time_s + whole_s))
+    return advance_plan(memory, settings)
+
+
+def plan_along(plan: Plan, route: Route, join_s: float) -> Plan:
+    """The plan along a new route, which joins at a time."""
+    return plan._replace(route=route, remaining_s=route.current.time_s, join_s=join_s)
 
 
 def is_search_due(clock: Clock, plan: Plan) -> bool:
@@ -862,6 +919,7 @@ def is_better(entry: PlannedEntry, plan: Plan, turns: TurnLimits, update: bool, 
 
     Either `update` holds, and it is the same plan and not much slower; or it is faster by a margin.
 
+    In still air a plan with the same first and last turns is the same one, whether there is a line between them or not.
     In wind additional pieces at its beginning, together no longer than `LONGEST_BEND`, do not make it a different plan.
     The duration of a plan with tighter turns grows with their radius.
     """
@@ -869,11 +927,19 @@ def is_better(entry: PlannedEntry, plan: Plan, turns: TurnLimits, update: bool, 
     is_still = entry.wind_east_m_s == 0.0 and entry.wind_north_m_s == 0.0
     left = encode(route.current.u, route.second.u, route.third.u)
     same = entry.side == route.side and ends_with(entry, left, 0.0 if is_still else LONGEST_BEND * unit_s)
+    if is_still and update and entry.side == route.side:
+        same = same or is_alike(entry, route)
     if same and not update:
         return False
     widened = max(1.0, entry.turn_radius_m / route.turn_radius_m) if same else 1.0
     margin_s = (UPDATE_MARGIN if same else -SWITCH_MARGIN) * unit_s
     return duration_s(entry) - passed_s < widened * (plan.remaining_s + later_s(route)) + margin_s
+
+
+def is_alike(entry: PlannedEntry, route: Route) -> bool:
+    """Whether an entry has the first and the last control of a route."""
+    u1, u2, u3 = controls(entry.word)
+    return u1 == route.current.u and (u3 if u3 != ABSENT else u2 if u2 != ABSENT else u1) == last_control(route)
 
 
 def ends_with(entry: PlannedEntry, word: int, bend_s: float) -> bool:

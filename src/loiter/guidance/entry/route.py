@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import ceil
+from math import ceil, sqrt
 from typing import Annotated, NamedTuple
 
 from loiter.guidance.entry.entry_planner import PlannedEntry, RelativeState
@@ -200,6 +200,50 @@ def offset_of(route: Route, state: RelativeState, radius_m: float) -> PathOffset
     if piece.u == 0:
         return line_offset(x - piece.x, y - piece.y, piece.c, piece.s, vx, vy)
     return arc_offset(piece.u, piece.radius_m, x - piece.x, y - piece.y, vx, vy)
+
+
+def last_radius_m(route: Route, state: RelativeState, circle_m: float) -> float:
+    """The radius of the turn, opposite to the circle, that leads in still air from a state onto the circle; metres.
+
+    The centre of the turn, p + r n with the unit vector n towards it, is r plus the radius of the circle away from that
+    of the circle. The result is not positive where there is no such turn.
+    """
+    vx, vy = flight_velocity(state.vx, state.vy, state.hx, state.hy)
+    ahead_m = circle_m - route.current.u * (state.y * vx - state.x * vy) / length(vx, vy)
+    return 0.5 * (state.x * state.x + state.y * state.y - circle_m * circle_m) / ahead_m if ahead_m > 0.0 else 0.0
+
+
+def with_last_turn(route: Route, state: RelativeState, radius_m: float) -> Route:
+    """The route with another last turn, in still air, that begins at a state."""
+    vx, vy = flight_velocity(state.vx, state.vy, state.hx, state.hy)
+    speed = length(vx, vy)
+    turn = _last_turn(route.current.u, state.x, state.y, vx / speed, vy / speed, radius_m, route.speed_m_s)
+    return route._replace(current=turn)
+
+
+def with_last_line(route: Route, state: RelativeState, circle_m: float) -> Route:
+    """The route with its line, parallel to the present one, through a state, and another last turn, in still air.
+
+    The route as it is where that turn, as wide as planned and opposite to the circle, cannot end on the circle.
+    """
+    r, c, s, u, V = route.turn_radius_m, route.current.c, route.current.s, route.second.u, route.speed_m_s
+    centre_x, centre_y, reach_m = state.x - u * r * s, state.y + u * r * c, circle_m + r
+    along_m, beside_m = c * centre_x + s * centre_y, c * centre_y - s * centre_x
+    if abs(beside_m) >= reach_m:
+        return route
+    left_m = -along_m - sqrt(reach_m * reach_m - beside_m * beside_m)
+    end_x, end_y = state.x + left_m * c, state.y + left_m * s
+    line = RoutePiece(0, state.x, state.y, c, s, end_x, end_y, left_m / V, r)
+    return route._replace(current=line, second=_last_turn(u, end_x, end_y, c, s, r, V))
+
+
+def _last_turn(u: int, x: float, y: float, c: float, s: float, r: float, speed: float) -> RoutePiece:
+    """The turn from (x, y) along (c, s), opposite to the circle, that ends where it is closest to the circle."""
+    centre_x, centre_y = x - u * r * s, y + u * r * c
+    scale = 1.0 - r / length(centre_x, centre_y)
+    end_x, end_y = scale * centre_x, scale * centre_y
+    turned = angle(arc_rotation(u, x - centre_x, y - centre_y, end_x - centre_x, end_y - centre_y))
+    return RoutePiece(u, centre_x, centre_y, c, s, end_x, end_y, turned * r / speed, r)
 
 
 def remaining_s(route: Route, state: RelativeState, previous_s: float) -> float:
