@@ -275,7 +275,9 @@ def test_the_first_promise_knows_the_bank_at_the_start(bank_deg, heading_deg):
         command = law.step(state, 0.02)
         joins_s.append(state.time_s + command.time_to_join_s)
         mass.advance(command, 0.02)
-    assert max(joins_s) - min(joins_s) < 0.25
+    assert joins_s[0] == pytest.approx(joins_s[-1], abs=0.15)
+    # Between, the roll is identified while the bank changes by 70 degrees, and turn and displacement follow from it.
+    assert max(joins_s) - min(joins_s) < 0.3
 
 
 def test_a_bank_that_is_measured_wrongly_leaves_no_offset():
