@@ -107,12 +107,12 @@ Section Turn.
       transitivity (x * (1 + f * f)); [ring|]. rewrite square. ring.
   Qed.
 
-  (** Whatever angle the start is seen at, the turn is no less than that gives, if that is less than a whole turn. *)
-  Lemma turn_at_least alpha : sqrt P * cos alpha = y + 1 -> sqrt P * sin alpha = x ->
-    atan (e * c) - alpha < 2 * PI -> atan (e * c) - alpha <= A.
+  (** The turn, where the angle at which the start is seen gives one from 0 to a whole one. *)
+  Lemma turn_is alpha : sqrt P * cos alpha = y + 1 -> sqrt P * sin alpha = x ->
+    0 <= atan (e * c) - alpha < 2 * PI -> A = atan (e * c) - alpha.
   Proof.
-    intros ec es below. destruct (Rle_dec (atan (e * c) - alpha) A) as [yes|no]; [exact yes|exfalso].
-    destruct direction_of_start as [fc fs]. assert (rpos : 0 < sqrt P) by (apply sqrt_lt_R0; unfold P; lra).
+    intros ec es inside. destruct direction_of_start as [fc fs].
+    assert (rpos : 0 < sqrt P) by (apply sqrt_lt_R0; unfold P; lra).
     assert (bounds : 0 <= A < 2 * PI) by apply rotation_bounds.
     assert (same : atan (e * c) - A = alpha); [|lra]. apply same_angle.
     - apply Rabs_lt_between. lra.
@@ -120,16 +120,13 @@ Section Turn.
     - apply Rmult_eq_reg_l with (sqrt P); lra.
   Qed.
 
-  Lemma turn_is alpha : sqrt P * cos alpha = y + 1 -> sqrt P * sin alpha = x ->
-    0 <= atan (e * c) - alpha < 2 * PI -> A = atan (e * c) - alpha.
+  (** Whatever angle the start is seen at, the turn is no less than that gives, if that is less than a whole turn. *)
+  Lemma turn_at_least alpha : sqrt P * cos alpha = y + 1 -> sqrt P * sin alpha = x ->
+    atan (e * c) - alpha < 2 * PI -> atan (e * c) - alpha <= A.
   Proof.
-    intros ec es inside. pose proof (turn_at_least alpha ec es (proj2 inside)).
-    destruct direction_of_start as [fc fs]. assert (rpos : 0 < sqrt P) by (apply sqrt_lt_R0; unfold P; lra).
-    assert (bounds : 0 <= A < 2 * PI) by apply rotation_bounds.
-    assert (same : atan (e * c) - A = alpha); [|lra]. apply same_angle.
-    - apply Rabs_lt_between. lra.
-    - apply Rmult_eq_reg_l with (sqrt P); lra.
-    - apply Rmult_eq_reg_l with (sqrt P); lra.
+    intros ec es below. assert (bounds : 0 <= A < 2 * PI) by apply rotation_bounds.
+    destruct (Rle_dec 0 (atan (e * c) - alpha)) as [inside|negative]; [|lra].
+    rewrite (turn_is alpha ec es (conj inside below)). lra.
   Qed.
 End Turn.
 

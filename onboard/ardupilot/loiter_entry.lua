@@ -2,7 +2,7 @@
 --
 -- Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
 --
--- SHA-256 of the source: 50e6fdb155dc1cd85c7c70dae0df4512011809f15aba3e45d1109b09cadc0cea
+-- SHA-256 of the source: 12c3f1ea15f02deca2cc1f83f68178853d2f0e7823f495439aeaa00af7bf5a79
 --
 -- When a switch asks for it, this script flies a plane onto the holding circle around its present target in least
 -- time, and then leaves the circle to ArduPlane: loiter_entry.md. It works by GUIDED_CHANGE_HEADING in GUIDED: the target
@@ -1349,6 +1349,12 @@ function law._piece(u, x, y, c, s, time_s, r, speed)
             time_s, radius_m = r}, end_c, end_s
 end
 
+-- The control of the last piece of a word.
+function law.end_control(word)
+    local u1, u2, u3 = law.controls(word)
+    return u3 ~= -2--[[ABSENT]] and u3 or u2 ~= -2--[[ABSENT]] and u2 or u1
+end
+
 -- The route of an entry that begins at a state.
 function law.route_of(state, entry)
     local side, word, t1_s, t2_s, t3_s, r, speed, east, north = entry.side, entry.word, entry.t1_s, entry.t2_s,
@@ -1360,9 +1366,9 @@ function law.route_of(state, entry)
     local second
     second, c, s = law._piece(u2, first.end_x, first.end_y, c, s, t2_s, r, speed)
     local third = law._piece(u3, second.end_x, second.end_y, c, s, t3_s, r, speed)
-    local last_u = u3 ~= -2--[[ABSENT]] and u3 or u2 ~= -2--[[ABSENT]] and u2 or u1
-    return {side = side, current = first, second = second, third = third, more_s = 0.0, last_u = last_u, start_s =
-            state.time_s, turn_radius_m = r, speed_m_s = speed, wind_east_m_s = east, wind_north_m_s = north}
+    return {side = side, current = first, second = second, third = third, more_s = 0.0, last_u =
+            law.end_control(word), start_s = state.time_s, turn_radius_m = r, speed_m_s = speed, wind_east_m_s =
+            east, wind_north_m_s = north}
 end
 
 -- Whether only the circle is left.
@@ -2474,9 +2480,8 @@ end
 
 -- Whether an entry has the first and the last control of a route.
 function law.is_alike(entry, route)
-    local u1, u2, u3 = law.controls(entry.word)
-    return u1 == route.current.u and (u3 ~= -2--[[ABSENT]] and u3 or u2 ~= -2--[[ABSENT]] and u2 or u1) ==
-            law.last_control(route)
+    local first_u = law.controls(entry.word)
+    return first_u == route.current.u and law.end_control(entry.word) == law.last_control(route)
 end
 
 -- The time until the circle is joined.

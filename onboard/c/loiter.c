@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 85e475fd358da0a580cb72eef781b040c6cc08d0b00784b51d6616ce2095a796
+ * SHA-256 of the source: 470f88b5eaa438f3b6e3bb828fa2227dcf5d837ad2b368aaa59a1a81232a1d05
  */
 #include "loiter.h"
 
@@ -4427,6 +4427,13 @@ static inline RoutePiece_real_2 _piece(integer u, real x, real y, real c, real s
             end_c, end_s};
 }
 
+/* The control of the last piece of a word. */
+static inline integer end_control(integer word) {
+    const integer_3 controls_1 = controls(word);
+    const integer u1 = controls_1.a0, u2 = controls_1.a1, u3 = controls_1.a2;
+    return u3 != ABSENT ? u3 : u2 != ABSENT ? u2 : u1;
+}
+
 /* The route of an entry that begins at a state. */
 static inline Route route_of(const RelativeState *state, const PlannedEntry *entry) {
     const integer side = entry->side, word = entry->word;
@@ -4447,8 +4454,8 @@ static inline Route route_of(const RelativeState *state, const PlannedEntry *ent
     s = _piece_4.a2;
     const RoutePiece_real_2 _piece_5 = _piece(u3, second.end_x, second.end_y, c, s, t3_s, r, speed);
     const RoutePiece third = _piece_5.a0;
-    const integer last_u = u3 != ABSENT ? u3 : u2 != ABSENT ? u2 : u1;
-    return MAKE(Route){side, first, second, third, REAL(0.0), last_u, state->time_s, r, speed, east, north};
+    return MAKE(Route){side, first, second, third, REAL(0.0), end_control(word), state->time_s, r, speed, east,
+            north};
 }
 
 /* Whether only the circle is left. */
@@ -5147,8 +5154,8 @@ static inline bool ends_with(const PlannedEntry *entry, integer word, real bend_
 /* Whether an entry has the first and the last control of a route. */
 static inline bool is_alike(const PlannedEntry *entry, const Route *route) {
     const integer_3 controls_1 = controls(entry->word);
-    const integer u1 = controls_1.a0, u2 = controls_1.a1, u3 = controls_1.a2;
-    return u1 == route->current.u && (u3 != ABSENT ? u3 : u2 != ABSENT ? u2 : u1) == last_control(route);
+    const integer first_u = controls_1.a0;
+    return first_u == route->current.u && end_control(entry->word) == last_control(route);
 }
 
 /* The time until the circle is joined. */

@@ -6,7 +6,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 85e475fd358da0a580cb72eef781b040c6cc08d0b00784b51d6616ce2095a796
+ * SHA-256 of the source: 470f88b5eaa438f3b6e3bb828fa2227dcf5d837ad2b368aaa59a1a81232a1d05
  */
 #ifndef LOITER_ONBOARD_H
 #define LOITER_ONBOARD_H

@@ -1,6 +1,6 @@
 """The last turn of an entry, opposite to the circle, which is aimed again from where the aircraft is."""
 
-from math import cos, hypot, inf, pi, radians, sin, tan
+from math import cos, hypot, pi, radians, sin, tan
 
 import numpy as np
 import pytest
@@ -91,8 +91,7 @@ def test_a_reversal_displaces_the_aircraft_as_reckoned(roll):
 
 
 @needs_compiler
-@pytest.mark.parametrize(("seed", "number", "before"), [(307, 179, 2.33), (907, 179, 2.66)])
-def test_an_entry_that_drifted_off_its_last_turn_ends_on_the_circle(seed, number, before):
-    """Before the turn was aimed again these took so many plans."""
-    trial = biased_trials(number + 1, seed)[number]
-    assert ratio(trial) < 1.4 < before < inf
+@pytest.mark.parametrize(("seed", "number"), [(307, 179), (907, 179)])
+def test_an_entry_that_drifted_off_its_last_turn_ends_on_the_circle(seed, number):
+    """Before the turn was aimed again these took 2.33 and 2.66 plans."""
+    assert ratio(biased_trials(number + 1, seed)[number]) < 1.4

@@ -116,7 +116,7 @@ def test_nothing_is_quoted_where_the_theorems_do_not_hold():
     tie = plan(Pose(3.0, 0.0, 90.0), Orbit(0.0, 0.0, 1.0, "cw"), here[2])
     other = next(m for m in candidates(Pose(3.0, 0.0, 90.0), Orbit(0.0, 0.0, 1.0), here[2]) if m.turn != tie.turn)
     assert bound(other).basis == NOT_PLANNED
-    assert "not proved" in str(rounding_bound(other, problem_of(other), True).basis)
+    assert f"How much rounding may add is {NOT_PLANNED}" in str(certify(other))
 
 
 def lrl_discriminant(x, y, R):

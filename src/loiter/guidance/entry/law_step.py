@@ -30,6 +30,7 @@ from loiter.guidance.entry.route import (
     Route,
     RoutePiece,
     by_clock,
+    end_control,
     is_holding,
     last_control,
     last_radius_m,
@@ -938,8 +939,8 @@ def is_better(entry: PlannedEntry, plan: Plan, turns: TurnLimits, update: bool, 
 
 def is_alike(entry: PlannedEntry, route: Route) -> bool:
     """Whether an entry has the first and the last control of a route."""
-    u1, u2, u3 = controls(entry.word)
-    return u1 == route.current.u and (u3 if u3 != ABSENT else u2 if u2 != ABSENT else u1) == last_control(route)
+    first_u, _, _ = controls(entry.word)
+    return first_u == route.current.u and end_control(entry.word) == last_control(route)
 
 
 def ends_with(entry: PlannedEntry, word: int, bend_s: float) -> bool:

@@ -101,8 +101,13 @@ def route_of(state: RelativeState, entry: PlannedEntry) -> Route:
     first, c, s = _piece(u1, state.x, state.y, vx / size, vy / size, t1_s, r, speed)
     second, c, s = _piece(u2, first.end_x, first.end_y, c, s, t2_s, r, speed)
     third, _, _ = _piece(u3, second.end_x, second.end_y, c, s, t3_s, r, speed)
-    last_u = u3 if u3 != ABSENT else u2 if u2 != ABSENT else u1
-    return Route(side, first, second, third, 0.0, last_u, state.time_s, r, speed, east, north)
+    return Route(side, first, second, third, 0.0, end_control(word), state.time_s, r, speed, east, north)
+
+
+def end_control(word: int) -> int:
+    """The control of the last piece of a word."""
+    u1, u2, u3 = controls(word)
+    return u3 if u3 != ABSENT else u2 if u2 != ABSENT else u1
 
 
 def no_path() -> GivenPath:

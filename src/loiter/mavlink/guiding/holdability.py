@@ -11,6 +11,7 @@ from math import atan, degrees, hypot, isnan, nan, radians, tan
 from typing import NamedTuple
 
 from loiter.guidance.estimation.vehicle import VehicleEstimates
+from loiter.kernel.wind.hold import tightest_radius
 from loiter.planning.model import radius_at_bank
 
 # A circle is given up once the excess of the tightest radius over its own, as a share of it and beyond the first share,
@@ -45,7 +46,9 @@ class Tightest(NamedTuple):
     @property
     def radius_m(self) -> float:
         """The radius of the tightest circle that can be held."""
-        return radius_at_bank(self.airspeed_m_s + self.wind_m_s, self.limit_deg) / self.turn_ratio
+        V = self.airspeed_m_s
+        wider = tightest_radius(self.east_m_s / V, self.north_m_s / V)
+        return wider * radius_at_bank(V, self.limit_deg) / self.turn_ratio
 
     def excess(self, radius_m: float) -> float:
         """By which share of the radius of a circle the tightest one is wider."""
