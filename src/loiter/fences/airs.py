@@ -7,7 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from math import cos, inf, sin, tau
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol
+
+import numpy as np
+from numpy import bool_, float64
+from numpy.typing import NDArray
 
 from loiter.arrays import min_time, min_time_in_wind
 from loiter.compiled import solver
@@ -28,10 +32,6 @@ from loiter.kernel.wind.wind_search import WindProblem
 from loiter.kernel.words import ABSENT, controls, encode, set_of
 from loiter.planning.problem import Problem
 from loiter.planning.sides import SIDES
-
-if TYPE_CHECKING:
-    from numpy import bool_, float64
-    from numpy.typing import NDArray
 
 # How far a chord may be from its part of a trochoid, metres: clear paths in wind are farther from a zone by this.
 CHORD_ERROR_M = 0.01
@@ -81,8 +81,6 @@ class StillAir:
 
     def least_lengths(self, contacts: Contacts, headings: NDArray[float64]) -> NDArray[float64]:
         """The lengths of the fastest entries."""
-        import numpy as np
-
         orbit, r = self._problem.orbit, self._radius_m
         dx, dy, c, s = (
             (contacts.x - orbit.east_m) / r,
@@ -112,8 +110,6 @@ class StillAir:
 
     def _along(self, at: int, contacts: Contacts) -> Words:
         """The arcs along the curve of a contact to the others on it, in the direction in which it is passed."""
-        import numpy as np
-
         curve, way = self._curves[contacts.curve[at]], contacts.way[at]
         others = ((contacts.curve == contacts.curve[at]) & (contacts.way == way)).nonzero()[0]
         turned = (contacts.share[others] - contacts.share[at]) * way * curve.width
@@ -125,8 +121,6 @@ class StillAir:
 
     def are_clear(self, start: Pose2, words: Words) -> NDArray[bool_]:
         """In closed form."""
-        import numpy as np
-
         clear = np.ones(words.to.size, bool)
         x, y, heading = (np.full(words.to.size, value) for value in start)
         for k in range(3):
@@ -162,8 +156,6 @@ def _onto_circle(entries: Sequence[Entry], contacts: Contacts, radius_m: float) 
 
 def _clear_arcs(fence: Fence, arcs: Arcs, margin_m: float) -> NDArray[bool_]:
     """Whether arcs (k, 1) stay clear of a fence."""
-    import numpy as np
-
     clear, least = np.ones(arcs.x.shape[0], bool), margin_m + TOUCH_M
     if fence.polygons:
         clear &= arc_to_edge(arcs, fence.edges).distance.min(axis=1) > least
@@ -177,8 +169,6 @@ def _clear_arcs(fence: Fence, arcs: Arcs, margin_m: float) -> NDArray[bool_]:
 
 def _clear_chords(fence: Fence, ends: list[Any], margin_m: float) -> NDArray[bool_]:
     """Whether straight lines stay clear of a fence; `ends` has the coordinates of their ends, four arrays (n,)."""
-    import numpy as np
-
     ax, ay, bx, by = (v[:, None] for v in ends)
     clear, least = np.ones(ax.shape[0], bool), margin_m + TOUCH_M
     if fence.polygons:
@@ -202,15 +192,11 @@ class SteadyWind:
 
     def headings(self, contacts: Contacts) -> NDArray[float64]:
         """The headings whose motion over the ground has the directions of the contacts."""
-        import numpy as np
-
         across = self._wy * np.cos(contacts.angle) - self._wx * np.sin(contacts.angle)
         return contacts.angle - np.arcsin(across)
 
     def least_lengths(self, contacts: Contacts, headings: NDArray[float64]) -> NDArray[float64]:
         """The lengths of the fastest entries through the air."""
-        import numpy as np
-
         orbit, r = self._problem.orbit, self._radius_m
         dx, dy = (contacts.x - orbit.east_m) / r, (contacts.y - orbit.north_m) / r
         least = np.zeros(contacts.x.size)
@@ -248,8 +234,6 @@ class SteadyWind:
 
     def are_clear(self, start: Pose2, words: Words) -> NDArray[bool_]:
         """By chords of trochoids, each no farther than `CHORD_ERROR_M` from its part."""
-        import numpy as np
-
         n, r = words.to.size, self._radius_m
         clear = np.ones(n, bool)
         wind_x, wind_y = self._wx, self._wy
@@ -274,8 +258,6 @@ class SteadyWind:
 
 def _flown(x: Any, y: Any, heading: Any, u: Any, length: Any, r: float, wx: float, wy: float) -> tuple[Any, Any]:
     """Places over the ground after a length through the air that moves with the wind (wx, wy) over the airspeed."""
-    import numpy as np
-
     angle = length / r
     half, chord = heading + 0.5 * u * angle, np.where(u == 0.0, length, 2.0 * r * np.sin(0.5 * angle))
     return x + chord * np.cos(half) + wx * length, y + chord * np.sin(half) + wy * length

@@ -10,15 +10,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 from heapq import heappop, heappush
 from math import inf
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
+
+import numpy as np
+from numpy import float64
+from numpy.typing import NDArray
 
 from loiter.fences.airs import Air, Pose2
 from loiter.fences.contacts import Contacts
 from loiter.fences.words import Words
-
-if TYPE_CHECKING:
-    from numpy import float64
-    from numpy.typing import NDArray
 
 # So many paths from one pose are checked at a time.
 BATCH = 48
@@ -71,8 +71,6 @@ class ChainSearch:
     """
 
     def __init__(self, air: Air, start: Pose2, contacts: Contacts, most_m: float, most_poses: int) -> None:
-        import numpy as np
-
         self._air, self._start, self._contacts = air, start, contacts
         self._headings = air.headings(contacts)
         self._least = air.least_lengths(contacts, self._headings)
@@ -121,8 +119,6 @@ class ChainSearch:
 
     def _expand(self, node: int) -> None:
         """Take up the paths from a pose."""
-        import numpy as np
-
         at = None if node == self._contacts.x.size else node
         words = self._air.words(self._pose(node), at, self._contacts, self._headings)
         bound = self._length[node] + _cost(words) + self._least[words.to]

@@ -8,15 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from math import acos, atan2, ceil, cos, hypot, inf, pi, sin, sqrt, tau
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
+
+import numpy as np
+from numpy import bool_, float64, intp
+from numpy.typing import NDArray
 
 from loiter.fences.fence import Fence
 from loiter.fences.model import CircleZone, Corner, PolygonZone
 from loiter.planning.model import Orbit, Turn
-
-if TYPE_CHECKING:
-    from numpy import bool_, float64, intp
-    from numpy.typing import NDArray
 
 # Contacts of the first search: on arcs one for each so many radians, on lines one for each so many turn radii, and no
 # more than so many on one line.
@@ -223,8 +223,6 @@ def beside(curve: Curve, share: float, by: float) -> float:
 
 def placed(curves: Sequence[Curve], rows: Sequence[Row]) -> Contacts:
     """Contacts at curves, shares and ways."""
-    import numpy as np
-
     indices, shares, ways = (np.array(column) for column in zip(*rows, strict=True))
     x, y, radius, a, width, dx, dy = np.array([curve[:7] for curve in curves])[indices].T
     normal = a + shares * width

@@ -6,11 +6,11 @@ is, as a share of its length from 0 to 1.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
-if TYPE_CHECKING:
-    from numpy import float64, intp
-    from numpy.typing import NDArray
+import numpy as np
+from numpy import float64, intp
+from numpy.typing import NDArray
 
 # A length that stands for none where something is divided by it: the quotient does not overflow.
 NO_LENGTH_M = 1e-100
@@ -43,8 +43,6 @@ class Nearest(NamedTuple):
 
 def to_edge(x: Reals, y: Reals, edges: Edges) -> Reals:
     """The distance of points to edges: to the foot of the perpendicular or, where it is beyond an end, to that end."""
-    import numpy as np
-
     ex, ey = edges.bx - edges.ax, edges.by - edges.ay
     px, py = x - edges.ax, y - edges.ay
     share = np.clip((px * ex + py * ey) / (ex * ex + ey * ey), 0.0, 1.0)
@@ -53,8 +51,6 @@ def to_edge(x: Reals, y: Reals, edges: Edges) -> Reals:
 
 def foot_share(x: Reals, y: Reals, ax: Reals, ay: Reals, bx: Reals, by: Reals) -> Reals:
     """Where on the line from a to b the foot of a point is, as a share from 0 to 1; 0 where a and b are one point."""
-    import numpy as np
-
     ex, ey = bx - ax, by - ay
     length_2 = ex * ex + ey * ey
     along = (x - ax) * ex + (y - ay) * ey
@@ -65,16 +61,12 @@ def foot_share(x: Reals, y: Reals, ax: Reals, ay: Reals, bx: Reals, by: Reals) -
 
 def chord_to_point(ax: Reals, ay: Reals, bx: Reals, by: Reals, x: Reals, y: Reals) -> Nearest:
     """The distance of chords from a to b to points."""
-    import numpy as np
-
     share = foot_share(x, y, ax, ay, bx, by)
     return Nearest(np.hypot(ax + share * (bx - ax) - x, ay + share * (by - ay) - y), share)
 
 
 def first_within(distances: Any, shares: Any, within_m: float) -> Reals:
     """The least share at which one of several distances, stacked or in a sequence, is at most `within_m`; else inf."""
-    import numpy as np
-
     return np.where(np.stack(distances) <= within_m, np.stack(shares), np.inf).min(axis=0)
 
 
@@ -97,8 +89,6 @@ def chord_edge_points(ax: Reals, ay: Reals, bx: Reals, by: Reals, edges: Edges) 
 
     Two segments that do not cross are nearest at an end of one of them.
     """
-    import numpy as np
-
     c = chord_to_point(ax, ay, bx, by, edges.ax, edges.ay)
     d = chord_to_point(ax, ay, bx, by, edges.bx, edges.by)
     from_a, from_b = to_edge(ax, ay, edges), to_edge(bx, by, edges)
@@ -110,8 +100,6 @@ def chord_edge_points(ax: Reals, ay: Reals, bx: Reals, by: Reals, edges: Edges) 
 
 def _least(distances: Any, shares: Any) -> Nearest:
     """The least of several distances, stacked or in a sequence, with its share."""
-    import numpy as np
-
     every = np.stack(distances)
     best = every.argmin(axis=0)
     return Nearest(every.min(axis=0), np.choose(best, shares))
@@ -122,8 +110,6 @@ def crossing_share(ax: Reals, ay: Reals, bx: Reals, by: Reals, edges: Edges) -> 
 
     Parallel ones do not cross here: if they overlap, an end of one lies on the other.
     """
-    import numpy as np
-
     dx, dy, ex, ey = bx - ax, by - ay, edges.bx - edges.ax, edges.by - edges.ay
     px, py = edges.ax - ax, edges.ay - ay
     cross = dx * ey - dy * ex
@@ -146,15 +132,11 @@ class Arcs(NamedTuple):
 
     def share(self, qx: Reals, qy: Reals) -> Reals:
         """Where on the arc the direction q from the centre is, as a share of its angle; above 1 beyond its end."""
-        import numpy as np
-
         turned = np.arctan2(self.u * (self.nx * qy - self.ny * qx), self.nx * qx + self.ny * qy)
         return np.where(turned < 0.0, turned + 2.0 * np.pi, turned) / np.maximum(self.angle, np.finfo(float).tiny)
 
     def direction(self, share: Reals) -> tuple[Reals, Reals]:
         """The unit vector from the centre to the point of the arc at a share of its angle."""
-        import numpy as np
-
         c, s = np.cos(share * self.angle), self.u * np.sin(share * self.angle)
         return self.nx * c - self.ny * s, self.ny * c + self.nx * s
 
@@ -171,8 +153,6 @@ def arc_edge_points(arcs: Arcs, edges: Edges) -> tuple[Reals, Reals]:
     where the arc crosses the line of the edge or, if its circle does not reach that line, where it is nearest to it.
     Every such point that is on the arc is tried.
     """
-    import numpy as np
-
     ex, ey = edges.bx - edges.ax, edges.by - edges.ay
     length = np.hypot(ex, ey)
     ex, ey = ex / length, ey / length
@@ -200,8 +180,6 @@ def arc_edge_points(arcs: Arcs, edges: Edges) -> tuple[Reals, Reals]:
 
 def arc_circle_points(arcs: Arcs, x: float, y: float, radius: float) -> tuple[Reals, Reals]:
     """The distances from a circle, and the shares, of the ends of arcs, their points nearest to it, and crossings."""
-    import numpy as np
-
     vx, vy = x - arcs.x, y - arcs.y
     apart = np.maximum(np.hypot(vx, vy), NO_LENGTH_M)
     towards_x, towards_y = vx / apart, vy / apart
@@ -226,8 +204,6 @@ def chord_circle_points(
     ax: Reals, ay: Reals, bx: Reals, by: Reals, x: float, y: float, radius: float
 ) -> tuple[Reals, Reals]:
     """The distances from a circle, and the shares, of the ends of chords, the point nearest to it, and crossings."""
-    import numpy as np
-
     near = chord_to_point(ax, ay, bx, by, x, y)
     length = np.maximum(np.hypot(bx - ax, by - ay), NO_LENGTH_M)
     along = ((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / length
@@ -248,8 +224,6 @@ class Extremes(NamedTuple):
 
 def arc_to_point(arcs: Arcs, x: Reals, y: Reals) -> Extremes:
     """The least and the largest distance of arcs (k, 1) to points (n,): at an end, towards or away from it."""
-    import numpy as np
-
     vx, vy = x - arcs.x, y - arcs.y
     r = np.hypot(vx, vy)
     safe = np.maximum(r, np.finfo(float).tiny)

@@ -10,7 +10,11 @@ the air, in turn radii, and poses are those over the ground.
 from __future__ import annotations
 
 from math import atan2, ceil, hypot, inf, pi
-from typing import TYPE_CHECKING, Any, NamedTuple, cast
+from typing import Any, NamedTuple, cast
+
+import numpy as np
+from numpy import bool_, float64, intp
+from numpy.typing import NDArray
 
 from loiter.fences.airs import Air, Pose2
 from loiter.fences.contacts import Contacts, curves_of
@@ -19,10 +23,6 @@ from loiter.fences.model import clear_points
 from loiter.fences.word_bounds import KINDS, Bounds, Poses, Words, bounds_of, places_before, places_passed
 from loiter.planning.compass import heading_vector
 from loiter.planning.problem import Problem
-
-if TYPE_CHECKING:
-    from numpy import bool_, float64, intp
-    from numpy.typing import NDArray
 
 # So many parts are divided at a time, so often at most; the search ends at a part that is shorter than this.
 BATCH, MOST_ROUNDS, LEAST_WIDTH = 256, 40, 1e-4
@@ -56,8 +56,6 @@ class Parts(NamedTuple):
 
     def and_others(self, others: Parts) -> Parts:
         """These parts and others."""
-        import numpy as np
-
         words = Words._make(np.concatenate(columns) for columns in zip(self.words, others.words, strict=True))
         columns = [np.concatenate(columns) for columns in zip(self[:-1], others[:-1], strict=True)]
         return Parts._make([*columns, words])
@@ -68,8 +66,6 @@ def least_length(fence: Fence, problem: Problem, margin_m: float, air: Air, most
 
     `air` is that of the search for a clear entry. In wind `most` is finite.
     """
-    import numpy as np
-
     search = _Search(fence, problem, margin_m, air, most)
     parts = search.first_parts()
     bounds = search.bounds(parts)
@@ -92,8 +88,6 @@ class _Search:
     """The parts of one problem, and their bounds."""
 
     def __init__(self, fence: Fence, problem: Problem, margin_m: float, air: Air, most: float) -> None:
-        import numpy as np
-
         self._fence, self._margin_m, self._air, self._most = fence, margin_m, air, most
         self._r = problem.aircraft.turn_radius_m
         self._wx, self._wy = problem.relative_wind
@@ -108,8 +102,6 @@ class _Search:
 
     def first_parts(self) -> Parts:
         """Parts of all curves and times of arrival, each with all words."""
-        import numpy as np
-
         rows = []
         for i, curve in enumerate(self._curves):
             n = curve.steps(self._r, 1)
@@ -125,8 +117,6 @@ class _Search:
 
     def bounds(self, parts: Parts) -> NDArray[float64]:
         """Lower bounds on the lengths of clear entries that begin with the words of parts; inf where there is none."""
-        import numpy as np
-
         poses = self._poses(parts)
         found = bounds_of(self._start, parts.words, self._in_the_air(parts, poses))
         soonest, latest = parts.time - parts.half_time, parts.time + parts.half_time
@@ -140,8 +130,6 @@ class _Search:
 
     def _poses(self, parts: Parts) -> Poses:
         """The poses of parts over the ground."""
-        import numpy as np
-
         x, y, radius, a, width, dx, dy = self._columns[parts.curve].T
         normal = a + parts.share * width
         x, y = x + radius * np.cos(normal) + parts.share * dx, y + radius * np.sin(normal) + parts.share * dy
@@ -161,8 +149,6 @@ class _Search:
 
         From a pose at a length `before` the middle one each is reached within a length `most` (docs/fences.md).
         """
-        import numpy as np
-
         _, _, radius, _, width, _, _ = self._columns[parts.curve].T
         c, s, span = np.cos(poses.heading), np.sin(poses.heading), np.minimum(parts.half * width, 0.5 * pi)
         aside, rise = radius * (1.0 - np.cos(span)), 1.0 - np.cos(poses.turned)
@@ -186,8 +172,6 @@ class _Search:
 
     def may_be_clear(self, parts: Parts) -> NDArray[bool_]:
         """Whether no place is known that is within the margin of a zone and on every path to a part."""
-        import numpy as np
-
         poses = self._poses(parts)
         in_air = self._in_the_air(parts, poses)
         bounds: Bounds = bounds_of(self._start, parts.words, in_air)
@@ -202,15 +186,11 @@ class _Search:
 
     def widths(self, parts: Parts) -> NDArray[float64]:
         """How long parts are, in place, heading or time."""
-        import numpy as np
-
         poses = self._poses(parts)
         return np.maximum(poses.moved + poses.turned, self._drift * parts.half_time)
 
     def divided(self, parts: Parts) -> Parts:
         """The first halves of parts, then the second ones: of the curve, or of the times of arrival."""
-        import numpy as np
-
         poses = self._poses(parts)
         timely = self._drift * parts.half_time > poses.moved + poses.turned
         half = np.where(timely, parts.half, 0.5 * parts.half)

@@ -6,14 +6,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import dist
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
+
+import numpy as np
+from numpy import float64
+from numpy.typing import NDArray
 
 from loiter.errors import InvalidArgument, number, positive
 from loiter.fences.distances import Edges, to_edge
-
-if TYPE_CHECKING:
-    from numpy import float64
-    from numpy.typing import NDArray
 
 # East and north of a corner, metres.
 Corner: TypeAlias = tuple[float, float]
@@ -121,14 +121,11 @@ class Zones:
     @cached_property
     def circles(self) -> Circles:
         """The circles as arrays."""
-        import numpy as np
-
         rows = [(z.east_m, z.north_m, z.radius_m, -1.0 if z.inclusion else 1.0) for z in self.circle_zones]
         return Circles(*np.array(rows, float).reshape(-1, 4).T)
 
     def signed_distances(self, east_m: float, north_m: float) -> tuple[NDArray[float64], NDArray[float64]]:
         """The distances of a point from the polygons and from the circles, metres, negative on their wrong side."""
-        import numpy as np
         import shapely
 
         outside = np.hypot(self.circles.x - east_m, self.circles.y - north_m) - self.circles.radius
@@ -150,7 +147,6 @@ class Zones:
 
 def polygon_sign(zone: PolygonZone, east_m: Any, north_m: Any) -> Any:
     """+1 where a point, or each of an array of points, is on the allowed side of a polygon, otherwise -1."""
-    import numpy as np
     import shapely
 
     inside = shapely.contains_xy(zone._polygon, east_m, north_m)
@@ -159,8 +155,6 @@ def polygon_sign(zone: PolygonZone, east_m: Any, north_m: Any) -> Any:
 
 def clear_points(fence: Zones, east_m: Any, north_m: Any, margin_m: Any) -> Any:
     """Which of many points (n,) are on the allowed side of every zone of a fence, farther from it than their margin."""
-    import numpy as np
-
     clear = np.ones(east_m.size, bool)
     for zone in fence.zones:
         if isinstance(zone, CircleZone):
@@ -174,8 +168,6 @@ def clear_points(fence: Zones, east_m: Any, north_m: Any, margin_m: Any) -> Any:
 
 def edges_of(polygons: Sequence[PolygonZone]) -> Edges:
     """The edges of polygons as arrays, one polygon after the other."""
-    import numpy as np
-
     starts = [corner for zone in polygons for corner in zone.corners]
     ends = [corner for zone in polygons for corner in (*zone.corners[1:], zone.corners[0])]
     counts = [len(zone.corners) for zone in polygons]

@@ -8,7 +8,11 @@ wind: that is what the bounds in `search` need.
 from __future__ import annotations
 
 from math import atan2, cos, hypot, pi, sin
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy import float64
+from numpy.typing import NDArray
 
 from loiter.kernel.wind.held import time_held
 from loiter.kernel.wind.hold import phase_of
@@ -18,10 +22,6 @@ from loiter.planning.leg import LegPlan
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CONTROLS, Orbit, Segment, radius_in_turns, relative_wind
 from loiter.planning.sides import sign_of
-
-if TYPE_CHECKING:
-    from numpy import float64
-    from numpy.typing import NDArray
 
 
 class Pieces(NamedTuple):
@@ -50,8 +50,6 @@ class Pieces(NamedTuple):
 
     def position(self, time_s: Any) -> tuple[Any, Any]:
         """East and north after a time in each piece: the arc's chord, along the heading at half time, and the wind."""
-        import numpy as np
-
         angle = time_s * self.speed / self.radius
         half = 0.5 * self.u * angle
         chord = self.radius * np.where(self.u == 0.0, angle, 2.0 * np.sin(0.5 * angle))
@@ -83,8 +81,6 @@ class FlownPath(NamedTuple):
 
 def flown_path(flown: Maneuver | LegPlan) -> FlownPath:
     """The path of a maneuver or a leg over the ground, with one round of its hold (docs/fences.md, "The hold")."""
-    import numpy as np
-
     maneuver = flown.entry if isinstance(flown, LegPlan) else flown
     rows = [_segment_row(segment, maneuver) for segment in maneuver.segments]
     rows.append(_moving_hold_row(maneuver) if maneuver.orbit.moves else _hold_row(maneuver))

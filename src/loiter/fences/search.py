@@ -12,7 +12,11 @@ Parts whose bound is above what is known are dropped, the others are split. docs
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
+
+import numpy as np
+from numpy import float64, intp
+from numpy.typing import NDArray
 
 from loiter.fences.distances import (
     Arcs,
@@ -31,10 +35,6 @@ from loiter.fences.distances import (
 )
 from loiter.fences.model import Circles, CircleZone, PolygonZone, Zone, Zones, edges_of, polygon_sign
 from loiter.fences.pieces import Pieces
-
-if TYPE_CHECKING:
-    from numpy import float64, intp
-    from numpy.typing import NDArray
 
 # What is closer than this, metres, touches. It is far above the rounding of coordinates up to 100 km, 1e-10 m, and far
 # below what any aircraft or fence is known to.
@@ -58,8 +58,6 @@ class Parts(NamedTuple):
 
     def split(self) -> Parts:
         """Each part as `SPLIT` parts, in the order flown."""
-        import numpy as np
-
         shares = np.arange(SPLIT + 1) / SPLIT
         times = self.a[:, None] + shares * (self.b - self.a)[:, None]
         return Parts(np.repeat(self.piece, SPLIT), times[:, :-1].ravel(), times[:, 1:].ravel())
@@ -113,14 +111,10 @@ class Closest(NamedTuple):
     @classmethod
     def none(cls, count: int) -> Closest:
         """Nothing known yet of so many zones."""
-        import numpy as np
-
         return cls(np.full(count, np.inf), np.zeros(count, np.intp), np.zeros(count))
 
     def note(self, zone: Any, distance: Any, piece: Any, time_s: Any) -> None:
         """Keep, for each zone, the least of distances."""
-        import numpy as np
-
         np.minimum.at(self.distance, zone, distance)
         best = distance == self.distance[zone]
         self.piece[zone[best]], self.time_s[zone[best]] = piece[best], time_s[best]
@@ -140,8 +134,6 @@ def approach(fence: Zones, pieces: Pieces, margin_m: float) -> tuple[Closest, Cl
     The least of all is known to `RESOLUTION_M`, and so is every one that is at most the margin; from polygons only if
     it is above `TOUCH_M`.
     """
-    import numpy as np
-
     polygons, circles = Closest.none(len(fence.polygons)), Closest.none(len(fence.circle_zones))
     bent = pieces.bent.nonzero()[0]
     if fence.polygons:
@@ -164,8 +156,6 @@ def _note_arcs_to_edges(closest: Closest, pieces: Pieces, bent: Any, edges: Edge
 
 
 def _note_arcs_to_circles(closest: Closest, pieces: Pieces, bent: Any, circles: Circles) -> None:
-    import numpy as np
-
     least, largest = arc_to_point(arcs_of(pieces.take(bent)), circles.x, circles.y)
     outside = circles.sign > 0.0
     distance = circles.sign * (np.where(outside, least.distance, largest.distance) - circles.radius)
@@ -173,8 +163,6 @@ def _note_arcs_to_circles(closest: Closest, pieces: Pieces, bent: Any, circles: 
 
 
 def _note(closest: Closest, distance: Any, share: Any, pieces: Pieces, bent: Any, zone: Any) -> None:
-    import numpy as np
-
     piece = np.broadcast_to(bent[:, None], distance.shape)
     own = np.broadcast_to(zone, distance.shape)
     closest.note(own.ravel(), distance.ravel(), piece.ravel(), (share * pieces.duration_s[piece]).ravel())
@@ -192,7 +180,6 @@ def _edge_bounds(edges: Edges) -> BoundParts:
 
 def _circle_bounds(circles: Circles) -> BoundParts:
     """Bounds of the signed distance from circles: positive on the allowed side."""
-    import numpy as np
 
     def bounds(chords: Chords, parts: Parts, j: Any) -> Bounds:
         x, y = circles.x[j], circles.y[j]
@@ -217,8 +204,6 @@ def _around(found: Nearest, chords: Chords, parts: Parts) -> Bounds:
 
 def first_parts(pieces: Pieces, chosen: Any) -> Parts:
     """The parts with which a search begins: turns in parts of at most `FIRST_PART_RAD`."""
-    import numpy as np
-
     angle = abs(pieces.u) * pieces.speed * pieces.duration_s / pieces.radius
     counts = np.maximum(1, np.ceil(angle / FIRST_PART_RAD)).astype(np.intp)[chosen]
     piece = np.repeat(chosen, counts)
@@ -229,8 +214,6 @@ def first_parts(pieces: Pieces, chosen: Any) -> Parts:
 
 def _pairs(parts: Parts, count: int) -> tuple[Parts, Any]:
     """Each part with each of so many edges or circles: the parts, repeated, and the indices of the others."""
-    import numpy as np
-
     n = parts.piece.size
     return parts.take(np.repeat(np.arange(n), count)), np.tile(np.arange(count), n)
 
@@ -240,8 +223,6 @@ def _near_edges(closest: Closest, pieces: Pieces, edges: Edges, margin_m: float)
 
     That bound of the first order takes a fifth of the time of the others, and leaves a few pairs of some thousand.
     """
-    import numpy as np
-
     parts = first_parts(pieces, (~pieces.bent).nonzero()[0])
     chords, zone = Chords.of(pieces, parts), np.broadcast_to(edges.zone, (parts.piece.size, edges.zone.size))
     x, y = 0.5 * (chords.ax + chords.bx)[:, None], 0.5 * (chords.ay + chords.by)[:, None]
@@ -266,8 +247,6 @@ def _search(
     unsigned: bool,
 ) -> None:
     """Note the least distances of parts from their edges or circles `j`, each of which belongs to a zone."""
-    import numpy as np
-
     for _ in range(MOST_LEVELS):
         if not parts.piece.size:
             return
@@ -283,8 +262,6 @@ def _undecided(closest: Closest, lower: Any, zone: Any, margin_m: float, *, unsi
     What touches is not searched further where distances are `unsigned`, nor what is farther than the margin and cannot
     be the closest of all.
     """
-    import numpy as np
-
     known = closest.distance[zone]
     touches = known <= TOUCH_M if unsigned else np.zeros(known.shape, bool)
     matters = (lower <= margin_m + TOUCH_M) | (lower < closest.distance.min() - RESOLUTION_M)
@@ -299,8 +276,6 @@ class Signed:
 
     def bounds(self, chords: Chords, parts: Parts) -> Bounds:
         """Bounds on parts; `upper` is attained at one of their ends."""
-        import numpy as np
-
         is_circle = isinstance(self._zone, CircleZone)
         lower, at_a, at_b = self._circle_bounds(chords) if is_circle else self._polygon_bounds(chords)
         upper = np.minimum(at_a, at_b) - chords.widen
@@ -308,8 +283,6 @@ class Signed:
 
     def _circle_bounds(self, chords: Chords) -> tuple[Any, Any, Any]:
         """The least signed distance of chords, and those of their ends."""
-        import numpy as np
-
         zone = self._zone
         assert isinstance(zone, CircleZone)
         at_a, at_b = self.at(chords.ax, chords.ay), self.at(chords.bx, chords.by)
@@ -320,8 +293,6 @@ class Signed:
 
     def _polygon_bounds(self, chords: Chords) -> tuple[Any, Any, Any]:
         """No more than the least signed distance of chords, and those of their ends."""
-        import numpy as np
-
         zone, c = self._zone, chords.columns()
         assert isinstance(zone, PolygonZone)
         found = chord_to_edge(c.ax, c.ay, c.bx, c.by, self._edges)
@@ -335,8 +306,6 @@ class Signed:
 
     def at(self, x: Any, y: Any) -> Any:
         """The signed distance of points."""
-        import numpy as np
-
         zone = self._zone
         if isinstance(zone, CircleZone):
             outside = np.hypot(x - zone.east_m, y - zone.north_m) - zone.radius_m
@@ -354,8 +323,6 @@ class PlaceInPath(NamedTuple):
 
 def least_distance(pieces: Pieces, zone: Zone) -> PlaceInPath:
     """The least signed distance of a path from a zone, to `RESOLUTION_M`: how deep it goes, where it is negative."""
-    import numpy as np
-
     signed, parts = Signed(zone), first_parts(pieces, np.arange(pieces.x.size))
     best = PlaceInPath(np.inf, 0, 0.0)
     for _ in range(MOST_LEVELS):
@@ -376,8 +343,6 @@ def first_entry(pieces: Pieces, zone: Zone) -> PlaceInPath:
     Of arcs and straight lines it is in closed form; trochoids, and the disc of a circle that moves, are searched as far
     as they come before. The distance is infinite if no place was found that is closer than `TOUCH_M`.
     """
-    import numpy as np
-
     simple = ((pieces.u == 0.0) | pieces.bent) & (pieces.widen == 0.0)
     entry = _first_touch(pieces, simple, zone)
     until_s = pieces.start_s[entry.piece] + entry.time_s if entry.distance < np.inf else np.inf
@@ -387,8 +352,6 @@ def first_entry(pieces: Pieces, zone: Zone) -> PlaceInPath:
 
 def _first_touch(pieces: Pieces, simple: Any, zone: Zone) -> PlaceInPath:
     """Where the arcs and straight lines of a path first come within `TOUCH_M` of a zone's boundary."""
-    import numpy as np
-
     share, edges = np.full(pieces.x.size, np.inf), edges_of([zone] if isinstance(zone, PolygonZone) else [])
     bent, straight = ((simple & kind).nonzero()[0] for kind in (pieces.bent, pieces.u == 0.0))
     if bent.size:
@@ -418,8 +381,6 @@ def _disc(zone: CircleZone) -> tuple[float, float, float]:
 
 def _searched_entry(pieces: Pieces, searched: Any, zone: Zone, known: PlaceInPath, known_s: float) -> PlaceInPath:
     """The first entry of some pieces by bounds, or the known one if none comes before."""
-    import numpy as np
-
     signed, parts = Signed(zone), first_parts(pieces, searched)
     step_s = TOUCH_M / float((pieces.speed + np.hypot(pieces.wx, pieces.wy)).max())
     entry, entry_s = known, known_s

@@ -11,6 +11,8 @@ from heapq import heappop, heappush
 from math import cos, inf, pi
 from typing import Any
 
+import numpy as np
+
 from loiter.fences.fence import Fence
 from loiter.fences.model import CircleZone, Zone
 from loiter.planning.problem import Problem
@@ -24,7 +26,6 @@ GRAZE_M = 1e-3
 
 def least_length_m(fence: Fence, problem: Problem, margin_m: float) -> float:
     """A lower bound on the length over the ground of any clear path to the circle, metres; inf where there is none."""
-    import numpy as np
     import shapely
 
     orbit, pose = problem.orbit, problem.pose
@@ -70,7 +71,6 @@ def _shape(zone: Zone, margin_m: float) -> Any:
 
 def _shortest(places: Any, least: Any, seen: Any) -> float:
     """The least length from the first place over the others to one of the next `ENDS`: A*, lines checked lazily."""
-    import numpy as np
     import shapely
 
     length, done = np.full(len(places), inf), np.zeros(len(places), bool)

@@ -7,13 +7,13 @@ or the mirror image; its first and last arc are in the first or in the second ha
 from __future__ import annotations
 
 from math import inf, pi, tau
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy import float64, intp
+from numpy.typing import NDArray
 
 from loiter.fences.airs import Pose2
-
-if TYPE_CHECKING:
-    from numpy import float64, intp
-    from numpy.typing import NDArray
 
 LSL, LSR, LRL = KINDS = range(3)
 
@@ -82,8 +82,6 @@ class _Between(NamedTuple):
 
 def bounds_of(start: Pose2, words: Words, poses: Poses) -> Bounds:
     """Bounds of words from a start to all poses near others."""
-    import numpy as np
-
     turned = words.mirror * (poses.heading - start.heading)
     lsr, lrl = words.kind == LSR, words.kind == LRL
     between = _between(start, words, poses)
@@ -110,8 +108,6 @@ def bounds_of(start: Pose2, words: Words, poses: Poses) -> Bounds:
 
 def _between(start: Pose2, words: Words, poses: Poses) -> _Between:
     """Where the centre of the last turn can be, seen from that of the first one."""
-    import numpy as np
-
     dx, dy, c, s = poses.x - start.x, poses.y - start.y, np.cos(start.heading), np.sin(start.heading)
     turned = words.mirror * (poses.heading - start.heading)
     side = np.where(words.kind == LSR, -1.0, 1.0)
@@ -125,8 +121,6 @@ def _between(start: Pose2, words: Words, poses: Poses) -> _Between:
 
 def _bends(words: Words, between: _Between) -> tuple[Any, Any]:
     """Bounds of the angle between the line of centres and the straight line of LSR, or the middle radii of LRL."""
-    import numpy as np
-
     lsr, lrl = words.kind == LSR, words.kind == LRL
     return tuple(
         np.where(
@@ -140,8 +134,6 @@ def _bends(words: Words, between: _Between) -> tuple[Any, Any]:
 
 def _arc(angle: Any, half: Any, is_long: Any) -> tuple[Any, Any]:
     """The least and the largest arc within `half` of an angle; the least is larger where there is none."""
-    import numpy as np
-
     middle = (0.5 + is_long) * pi
     nearest = middle + np.mod(angle - middle + pi, tau) - pi
     # Wider ones may reach this half of a turn from both sides.
@@ -154,8 +146,6 @@ def places_passed(start: Pose2, words: Words, poses: Poses, bounds: Bounds, drif
 
     `off` includes what the air moves while the length that is flown is not known.
     """
-    import numpy as np
-
     m, kind, angle, half = (v[:, None] for v in (words.mirror, words.kind, bounds.angle, bounds.half))
     first, middle = (v[:, None] * np.array(SHARES) for v in (bounds.first, bounds.middle))
     zero = np.zeros_like(first)
@@ -178,8 +168,6 @@ def places_passed(start: Pose2, words: Words, poses: Poses, bounds: Bounds, drif
 
 def places_before(words: Words, poses: Poses, bounds: Bounds) -> Places:
     """Places on the last arc: `flown` is negative, the length from there to the end."""
-    import numpy as np
-
     last = bounds.last[:, None] * np.array(SHARES)
     u = np.where(words.kind == LSR, -words.mirror, words.mirror)[:, None]
     x, y, heading = (v[:, None] for v in (poses.x, poses.y, poses.heading))
@@ -190,7 +178,5 @@ def places_before(words: Words, poses: Poses, bounds: Bounds) -> Places:
 
 def _turn(x: Any, y: Any, heading: Any, u: Any, angle: Any) -> tuple[Any, Any, Any]:
     """The pose after a turn with the control u by an angle."""
-    import numpy as np
-
     half, chord = heading + 0.5 * u * angle, 2.0 * np.sin(0.5 * angle)
     return x + chord * np.cos(half), y + chord * np.sin(half), heading + u * angle

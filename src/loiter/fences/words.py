@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from math import pi, tau
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
-if TYPE_CHECKING:
-    from numpy import float64, intp
-    from numpy.typing import NDArray
+import numpy as np
+from numpy import float64, intp
+from numpy.typing import NDArray
 
 # An arc that is shorter than a whole turn by less than this, radians, is none: rounding of angles.
 WHOLE_TURN = 1e-9
@@ -50,8 +50,6 @@ class Words(NamedTuple):
     @classmethod
     def of(cls, words: Sequence[Word], radius: float) -> Words:
         """Words of one turn radius, metres."""
-        import numpy as np
-
         to = np.array([word.to for word in words], np.intp)
         control, length = (
             np.array(rows, float).reshape(-1, 3)
@@ -62,15 +60,11 @@ class Words(NamedTuple):
     @classmethod
     def joined(cls, several: Any) -> Words:
         """Several as one."""
-        import numpy as np
-
         return cls(*(np.concatenate(columns) for columns in zip(*several, strict=True)))
 
 
 def words_between(x: float, y: float, angle: float, to_x: Any, to_y: Any, to_angle: Any, radius: float) -> Words:
     """All six words from a pose to others (n,): up to 6 n, those that exist."""
-    import numpy as np
-
     c, s = np.cos(angle), np.sin(angle)
     dx, dy = (to_x - x) / radius, (to_y - y) / radius
     along, across, turned = dx * c + dy * s, dy * c - dx * s, to_angle - angle
@@ -86,8 +80,6 @@ def words_between(x: float, y: float, angle: float, to_x: Any, to_y: Any, to_ang
 
 def _left_words(x: Any, y: Any, turned: Any) -> Iterator[LeftWord]:
     """LSL, LSR and LRL from the origin along the x axis."""
-    import numpy as np
-
     left_x, left_y = x - np.sin(turned), y + np.cos(turned) - 1.0
     right_x, right_y = x + np.sin(turned), y - np.cos(turned) - 1.0
     with np.errstate(invalid="ignore"):
@@ -105,7 +97,5 @@ def _left_words(x: Any, y: Any, turned: Any) -> Iterator[LeftWord]:
 
 def _arc(angle: Any) -> Any:
     """The angle of an arc, from 0 to a whole turn."""
-    import numpy as np
-
     within = np.mod(angle, tau)
     return np.where(within > tau - WHOLE_TURN, 0.0, within)
