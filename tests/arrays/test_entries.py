@@ -134,7 +134,7 @@ def test_where_no_air_passes_the_circle_the_bytes_are_those_of_still_air():
 def test_a_row_in_wind_that_no_maneuver_is_found_for_says_so(monkeypatch):
     code, none = np.zeros(1, dtype=np.int8), np.full(1, nan)
     lost = none, code, np.full((1, 3), nan), code + np.int8(Status.NOT_CONVERGED), code, none, none
-    monkeypatch.setattr("loiter.arrays.entries._kernel_in_wind", lambda *columns: lost)
+    monkeypatch.setattr("loiter.arrays.entries.ufuncs.solve_in_wind", lambda *columns: lost)
     found = entries(drawn(2)._replace(wind_speed_m_s=np.array([0.0, 3.0])))
     assert found.status.tolist() == [Status.OK, Status.NOT_CONVERGED]
     assert np.isnan(found.join_heading_deg).tolist() == [False, True]

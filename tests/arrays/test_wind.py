@@ -11,7 +11,7 @@ import loiter
 from arrays.overlapping import overlaps
 from loiter import Aircraft, Orbit, Pose, Wind
 from loiter.arrays import WindSolution
-from loiter.compiled import ufunc
+from loiter.compiled import ufuncs
 from loiter.errors import InvalidArgument
 from loiter.kernel.statuses import Status
 from loiter.kernel.wind.wind_search import WindProblem, fastest
@@ -220,7 +220,7 @@ def test_nothing_is_solved_without_a_warning():
 
 @pytest.mark.parametrize("name", ["min_time_in_wind", "solve_in_wind"])
 def test_they_are_ufuncs_of_numpy_and_travel_by_name(name):
-    function = ufunc(name)
+    function = getattr(ufuncs, name)
     assert isinstance(function, np.ufunc)
     # By name: pickle asks every module for it, and some warn when they are asked.
     with warnings.catch_warnings():

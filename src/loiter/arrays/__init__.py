@@ -1,8 +1,7 @@
 """Arrays of states and columns of tables: the answers of `plan` for millions of rows."""
 
 from loiter.arrays.reduction import reduce
-from loiter.arrays.sensitivity import Gradient, gradient
-from loiter.arrays.still_air import Solution, control, min_time, solve
+from loiter.arrays.still_air import Gradient, Solution, control, gradient, min_time, solve
 from loiter.arrays.wind import WindSolution, min_time_in_wind, solve_in_wind
 
 __all__ = [

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import os
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from itertools import pairwise
 from typing import Any, TypeVar
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from loiter.arrays.arguments import is_lazy, refuse_lazy_out
-from loiter.arrays.threads import share_work, thread_count
-from loiter.compiled import ufunc
+from loiter.compiled import ufuncs
 from loiter.errors import InvalidArgument
+from loiter.kernel.words import Word
 
 # A named tuple of arrays: the results of a ufunc that solves.
 Results = TypeVar("Results", bound=tuple[Any, ...])
@@ -23,7 +27,7 @@ def apply(name: str, arrays: tuple[Any, ...], out: Any, where: Any, workers: int
 
     Raises `InvalidArgument` for a number of workers that is not possible, and for `where` without `out`.
     """
-    function, count = ufunc(name), thread_count(workers)
+    function, count = getattr(ufuncs, name), thread_count(workers)
     _check_where(where, out)
     mask = None if where is True else _array(where)
     shareable = all(isinstance(a, (np.ndarray, np.generic, type(None))) for a in (*arrays, mask))
@@ -45,14 +49,14 @@ def apply_solver(
     Raises the errors of `apply`, and `InvalidArgument` for an `out` where the results are lazy.
     """
     arrays = [a if is_lazy(a) else np.asarray(a) for a in arguments]
-    count = thread_count(workers)
+    function, count = getattr(ufuncs, name), thread_count(workers)
     _check_where(where, out)
     if any(map(is_lazy, arrays)):
         refuse_lazy_out(out)
         # A lazy array takes others with a signature only in the same chunks.
-        return kind(*ufunc(name)(*np.broadcast_arrays(*arrays), np.empty(3)))
+        return kind(*function(*np.broadcast_arrays(*arrays), np.empty(3)))
     if out is None:
-        out = _empty(kind, np.broadcast_shapes(*(a.shape for a in arrays)))
+        out = empty_results(kind, np.broadcast_shapes(*(a.shape for a in arrays)))
     if where is not True:
         # NumPy has no `where` for a ufunc with a signature.
         shape = out[0].shape
@@ -61,7 +65,7 @@ def apply_solver(
         for result, values in zip(out, some, strict=True):
             result[wanted] = values
         return out
-    share_work(lambda *blocks, out: ufunc(name)(*blocks, np.empty(3), out=out), tuple(arrays), tuple(out), count)
+    share_work(lambda *blocks, out: function(*blocks, np.empty(3), out=out), tuple(arrays), tuple(out), count)
     return out
 
 
@@ -79,8 +83,70 @@ def _given(**options: Any) -> dict[str, Any]:
     return {name: value for name, value in options.items() if value is not None}
 
 
-def _empty(kind: type[Results], shape: tuple[int, ...]) -> Results:
+def empty_results(kind: type[Results], shape: tuple[int, ...]) -> Results:
     """Arrays to fill: the fields of a named tuple."""
     names: tuple[str, ...] = kind._fields  # type: ignore[attr-defined]
     shapes = {name: (*shape, 3) if name == "durations" else shape for name in names}
     return kind(*(np.empty(shapes[name], np.int8 if name in _CODES else np.float64) for name in names))
+
+
+# The letters of each code; codes that are no word have none.
+_LETTERS = np.array([Word(code).letters if code in tuple(Word) else "" for code in range(max(Word) + 1)])
+
+
+def word_letters(codes: Any) -> NDArray[np.str_]:
+    """The letters of word codes, "RSL", in their shape; "" for the empty word. Lazy arrays give lazy arrays."""
+    letters: NDArray[np.str_] = (
+        codes.map_blocks(_LETTERS.__getitem__, dtype=_LETTERS.dtype) if is_lazy(codes) else _LETTERS[np.asarray(codes)]
+    )
+    return letters
+
+
+def share_work(work: Callable[..., object], arrays: tuple[Any, ...], out: tuple[Any, ...], workers: int) -> None:
+    """Apply `work` in threads to slices of the longest axis; the ufuncs hold no lock and share no memory.
+
+    An argument that overlaps a result is copied first, as NumPy's ufuncs do.
+    """
+    count = thread_count(workers)
+    first, *_ = out
+    shape = first.shape
+    axis = int(np.argmax(shape)) if shape else 0
+    if count == 1 or not shape or shape[axis] < count:
+        work(*arrays, out=out)
+        return
+    # A single number is not broadcast: the loops are faster with it.
+    views = [np.broadcast_to(a, shape) if np.ndim(a) else a for a in (without_overlap(a, out) for a in arrays)]
+    # Several slices per thread, so that the other threads take over work from one that is delayed.
+    edges = np.linspace(0, shape[axis], min(4 * count, shape[axis]) + 1).astype(int)
+    slices = [(*[slice(None)] * axis, slice(start, end)) for start, end in pairwise(edges)]
+    with ThreadPoolExecutor(count) as pool:
+        tasks = [
+            pool.submit(work, *(v[s] if np.ndim(v) else v for v in views), out=tuple(o[s] for o in out)) for s in slices
+        ]
+    for task in tasks:
+        task.result()
+
+
+def without_overlap(argument: Any, out: tuple[Any, ...]) -> Any:
+    """An argument, or its copy where one thread could overwrite what another still has to read.
+
+    An argument with exactly the elements of a result is safe: each element is read and written by one thread.
+    """
+    overlaps = any(np.may_share_memory(argument, o) and not _same_places(argument, o) for o in out)
+    return argument.copy() if overlaps else argument
+
+
+def _same_places(a: Any, b: Any) -> bool:
+    return bool(a.shape == b.shape and a.strides == b.strides and a.ctypes.data == b.ctypes.data)
+
+
+def thread_count(workers: int) -> int:
+    """The number of threads for `workers`; raises `InvalidArgument` for a number that is neither positive nor -1."""
+    if not isinstance(workers, int) or workers == 0 or workers < -1:
+        raise InvalidArgument("workers", f"is {workers!r}: it must be a whole number from 1, or -1 for one per core")
+    return workers if workers > 0 else cores()
+
+
+def cores() -> int:
+    """The number of cores that this process may use, where the system reports it; otherwise that of the machine."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from loiter.arrays.application import empty_results
 from loiter.arrays.reduction import heading_vectors
-from loiter.compiled import solver
+from loiter.compiled import solver, ufuncs
 from loiter.errors import OutOfRange
 from loiter.kernel import motion
 from loiter.kernel.rebinding import Function, rebound
@@ -95,27 +96,26 @@ class Entries(NamedTuple):
 def entries(states: States) -> Entries:
     """The fastest entry of each row, as `plan` returns it."""
     n = len(states.east_m)
-    found: list[Any] = [np.empty(n, dtype=np.int8 if name in _CODES else np.float64) for name in Entries._fields]
+    found = empty_results(Entries, (n,))
     with np.errstate(all="ignore"):
         if states.slot_phase_deg is not None:
             _solve(states, slice(None), _in_slots, found)
-            return Entries(*found)
+            return found
         for start in range(0, n, BLOCK):
             _solve(states, slice(start, start + BLOCK), _in_still_air, found)
         windy = _windy(states)
         if windy.size:
             _solve(states, windy, _in_wind, found)
-    return Entries(*found)
+    return found
 
 
-def _solve(states: States, rows: Any, solve: Callable[[States], Entries], found: list[Any]) -> None:
+def _solve(states: States, rows: Any, solve: Callable[[States], Entries], found: Entries) -> None:
     """Solve some rows, a slice or row numbers, and store their entries."""
     some: list[Any] = [value[rows] if isinstance(value, np.ndarray) else value for value in states]
-    for column, values in zip(found, solve(States(*some)), strict=True):
+    columns: Any = zip(found, solve(States(*some)), strict=True)
+    for column, values in columns:
         column[rows] = values
 
-
-_CODES = {"word", "side", "status"}
 
 # The control u of each piece by the code of the word; 0 past the last.
 _CONTROLS = np.zeros((3, 64))
@@ -135,7 +135,8 @@ def _in_still_air(s: States) -> Entries:
     R = s.orbit_radius_m / r
     if np.any(refused):
         x = np.where(refused, nan, x)
-    time, word, durations, status, side, _ = _kernel(x, y, R, s.side, s.tolerance_m / r if s.tolerance_m else 0.0)
+    tolerance = s.tolerance_m / r if s.tolerance_m else 0.0
+    time, word, durations, status, side, _ = ufuncs.solve(x, y, R, s.side, tolerance, np.empty(3))
     if status.any():
         status = _final_statuses(s, status, refused)
     seconds = r / s.airspeed_m_s
@@ -163,7 +164,8 @@ def _in_wind(s: States) -> Entries:
     """The entries of rows in wind relative to the circle."""
     r = _turn_radius(s)
     refused = _refused_statuses(s, r)
-    return _entries_in_wind(s, r, refused, _kernel_in_wind(*_wind_problems(s, r, refused), s.tolerance_m / r))
+    solution = ufuncs.solve_in_wind(*_wind_problems(s, r, refused), s.tolerance_m / r, np.empty(3))
+    return _entries_in_wind(s, r, refused, solution)
 
 
 def _wind_problems(s: States, r: Any, refused: Any) -> tuple[Any, ...]:
@@ -253,22 +255,6 @@ def _centre_after(s: States, time_s: Any) -> tuple[Any, Any]:
         return s.orbit_east_m, s.orbit_north_m
     east_m = position_after(s.orbit_east_m, s.orbit_velocity_east_m_s, time_s)
     return east_m, position_after(s.orbit_north_m, s.orbit_velocity_north_m_s, time_s)
-
-
-def _kernel(*columns: Any) -> tuple[Any, ...]:
-    """Time, word, durations, status, side, miss. The only place where the kernel is called for still air."""
-    from loiter.compiled import ufuncs
-
-    result: tuple[Any, ...] = ufuncs.solve(*columns, np.empty(3))
-    return result
-
-
-def _kernel_in_wind(*columns: Any) -> tuple[Any, ...]:
-    """Time, word, durations, status, side, azimuth, miss. The only place where the kernel is called for wind."""
-    from loiter.compiled import ufuncs
-
-    result: tuple[Any, ...] = ufuncs.solve_in_wind(*columns, np.empty(3))
-    return result
 
 
 def _turn_radius(s: States) -> Any:

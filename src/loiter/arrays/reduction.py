@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loiter.arrays.arguments import Arrays, NumbersLike, OtherArrays, is_lazy, number_arrays, refuse_lazy_out
-from loiter.compiled import ufunc
+from loiter.compiled import ufuncs
 from loiter.errors import in_unit, instance
 from loiter.kernel import motion
 from loiter.kernel.rebinding import Function, rebound
@@ -84,7 +84,7 @@ def reduce(
     if lazy or (out is None and max(np.size(east), np.size(north), np.size(c)) < KERNEL_FROM):
         # The formula is plain arithmetic, and Dask cannot apply a ufunc with two results.
         return motion.reduce(east, north, c, s)
-    reduced: tuple[Any, Any] = ufunc("reduce")(east, north, c, s, **({} if out is None else {"out": out}))
+    reduced: tuple[Any, Any] = ufuncs.reduce(east, north, c, s, **({} if out is None else {"out": out}))
     return reduced
 
 

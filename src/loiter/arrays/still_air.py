@@ -1,15 +1,26 @@
-"""Arrays of states in still air: least times, the feedback law, whole solutions."""
+"""Arrays of states in still air: least times, the feedback law, whole solutions, and the gradient of the least time."""
 
 from __future__ import annotations
 
-from typing import Any, Literal, NamedTuple, overload
+from collections.abc import Callable
+from typing import Any, Literal, NamedTuple, TypeVar, cast, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from loiter.arrays.application import apply, apply_solver
-from loiter.arrays.arguments import Arrays, NumbersLike, OtherArray, OtherArrays, TurnLike, number_arrays, side_codes
-from loiter.arrays.letters import word_letters
+from loiter.arrays.application import apply, apply_solver, share_work, word_letters
+from loiter.arrays.arguments import (
+    Arrays,
+    NumbersLike,
+    OtherArray,
+    OtherArrays,
+    TurnLike,
+    is_lazy,
+    number_arrays,
+    side_codes,
+)
+from loiter.compiled import ufuncs
+from loiter.errors import InvalidArgument
 
 
 class Solution(NamedTuple):
@@ -36,6 +47,14 @@ class Solution(NamedTuple):
         ['RSL', 'SL']
         """
         return word_letters(self.word)
+
+
+Typed = TypeVar("Typed", bound=Callable[..., Any])
+
+
+def like(model: Typed) -> Callable[[Callable[..., Any]], Typed]:
+    """A decorator for a function with the arguments and results of another, for type checkers."""
+    return lambda function: cast("Typed", function)
 
 
 # What the overloads describe: numbers give numbers, sequences and NumPy arrays give NumPy arrays, and arrays of other
@@ -122,54 +141,7 @@ def min_time(
     return result
 
 
-@overload
-def control(  # type: ignore[overload-overlap]
-    x: float,
-    y: float,
-    radius: float = ...,
-    turn: TurnLike = ...,
-    tolerance: float = ...,
-    *,
-    out: None = ...,
-    where: Literal[True] = ...,
-    workers: int = ...,
-) -> np.float64: ...
-@overload
-def control(
-    x: NumbersLike,
-    y: NumbersLike,
-    radius: NumbersLike = ...,
-    turn: ArrayLike = ...,
-    tolerance: NumbersLike = ...,
-    *,
-    out: NDArray[np.float64] | None = ...,
-    where: ArrayLike = ...,
-    workers: int = ...,
-) -> NDArray[np.float64]: ...
-@overload
-def control(  # type: ignore[overload-overlap]
-    x: OtherArrays | NumbersLike,
-    y: OtherArrays | NumbersLike,
-    radius: OtherArrays | NumbersLike = ...,
-    turn: ArrayLike = ...,
-    tolerance: OtherArrays | NumbersLike = ...,
-    *,
-    out: OtherArrays | None = ...,
-    where: OtherArrays | ArrayLike = ...,
-    workers: int = ...,
-) -> OtherArrays: ...
-@overload
-def control(
-    x: ArrayLike,
-    y: ArrayLike,
-    radius: ArrayLike = ...,
-    turn: ArrayLike = ...,
-    tolerance: ArrayLike = ...,
-    *,
-    out: Any = ...,
-    where: ArrayLike = ...,
-    workers: int = ...,
-) -> np.float64 | NDArray[np.float64]: ...
+@like(min_time)
 def control(
     x: Arrays,
     y: Arrays,
@@ -225,3 +197,46 @@ def _arguments(x: Any, y: Any, radius: Any, turn: ArrayLike, tolerance: Any) -> 
     """The inputs of the ufuncs: numbers, and the turn as a code."""
     x, y, radius, tolerance = number_arrays(x=x, y=y, radius=radius, tolerance=tolerance)
     return x, y, radius, side_codes(turn), tolerance
+
+
+class Gradient(NamedTuple):
+    """The derivatives of T with respect to x, y and the radius: float64 arrays of the shape of the states."""
+
+    x: NDArray[np.float64]
+    y: NDArray[np.float64]
+    radius: NDArray[np.float64]
+
+
+def gradient(
+    x: ArrayLike,
+    y: ArrayLike,
+    radius: ArrayLike = 1.0,
+    turn: ArrayLike = "either",
+    *,
+    out: Gradient | None = None,
+    workers: int = 1,
+) -> Gradient:
+    """The gradient of `min_time`: dT/dx, dT/dy and dT/dradius, from the adjoint of the maneuver of `solve`.
+
+    Arguments in turn radii as for `min_time`; they broadcast to a shape (...). T and lengths have the same unit, so the
+    derivatives are pure numbers. Where several maneuvers tie, T has an edge, and the gradient is that of the one that
+    `solve` returns: T grows, in each direction, at most as fast as it says. On the last arc of a circle, where T jumps
+    or has a vertical tangent on one side, it is the derivative from the other side, that of the lower values;
+    docs/gradients.md lists these places. It is nan at the target, and where a state cannot be solved. `out` is a
+    `Gradient` to fill.
+    Raises `InvalidArgument` for an unknown turn or number of workers, and for arrays of Dask and xarray.
+
+    >>> g = loiter.gradient(4.0, 4.0)
+    >>> round(float(g.x), 4), round(float(g.y), 4), round(float(g.radius), 4)
+    (0.9038, 0.4279, -0.866)
+    """
+    arrays = (*number_arrays(x=x, y=y, radius=radius), side_codes(turn))
+    if any(map(is_lazy, arrays)):
+        raise InvalidArgument(
+            "x", "is an array of another library, as y or the radius: only NumPy arrays have gradients"
+        )
+    arrays = tuple(np.asarray(array) for array in arrays)
+    shape = np.broadcast_shapes(*(array.shape for array in arrays))
+    result = Gradient(*(np.empty(shape) for _ in Gradient._fields)) if out is None else out
+    share_work(lambda *blocks, out: ufuncs.gradient(*blocks, out=out), arrays, tuple(result), workers)
+    return Gradient(*(column[()] for column in result)) if out is None else result

@@ -7,9 +7,8 @@ from typing import Any, Literal, NamedTuple, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from loiter.arrays.application import apply, apply_solver
+from loiter.arrays.application import apply, apply_solver, word_letters
 from loiter.arrays.arguments import Arrays, NumbersLike, OtherArray, OtherArrays, TurnLike, number_arrays, side_codes
-from loiter.arrays.letters import word_letters
 
 
 class WindSolution(NamedTuple):
@@ -118,9 +117,8 @@ def min_time_in_wind(
     >>> round(float(loiter.min_time_in_wind(-10.0, 0.0, 0.0, 3.0, "cw", 0.3, 0.0)), 4)
     5.9162
     """
-    numbers = number_arrays(x=x, y=y, angle=angle, radius=radius, wind_x=wind_x, wind_y=wind_y, tolerance=tolerance)
-    arguments = _arguments(turn, *numbers)
-    result: np.float64 | NDArray[np.float64] | OtherArray = apply("min_time_in_wind", arguments, out, where, workers)
+    inputs = _arguments(turn, x=x, y=y, angle=angle, radius=radius, wind_x=wind_x, wind_y=wind_y, tolerance=tolerance)
+    result: np.float64 | NDArray[np.float64] | OtherArray = apply("min_time_in_wind", inputs, out, where, workers)
     return result
 
 
@@ -144,13 +142,13 @@ def solve_in_wind(
     tight to be held in it, a search that did not converge) the floats are nan. Dask arrays give Dask arrays, all other
     arguments NumPy arrays; `out` is a `WindSolution` to fill. Raises the errors of `solve`.
     """
-    numbers = number_arrays(x=x, y=y, angle=angle, radius=radius, wind_x=wind_x, wind_y=wind_y, tolerance=tolerance)
-    arguments = _arguments(turn, *numbers)
-    return apply_solver("solve_in_wind", arguments, WindSolution, out, where, workers)
+    inputs = _arguments(turn, x=x, y=y, angle=angle, radius=radius, wind_x=wind_x, wind_y=wind_y, tolerance=tolerance)
+    return apply_solver("solve_in_wind", inputs, WindSolution, out, where, workers)
 
 
-def _arguments(turn: ArrayLike, x: Any, y: Any, angle: Any, radius: Any, *others: Any) -> tuple[Any, ...]:
+def _arguments(turn: ArrayLike, **given: Any) -> tuple[Any, ...]:
     """The inputs of the ufuncs: the heading as a unit vector, the turn as a code."""
+    x, y, angle, radius, *others = number_arrays(**given)
     angles = np.multiply(angle, 1.0, dtype=np.float64)
     with np.errstate(invalid="ignore"):
         c, s = np.cos(angles), np.sin(angles)

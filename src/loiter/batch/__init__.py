@@ -133,7 +133,7 @@ def plan(
 
 def _workers(workers: int | None, scheduler: str | None) -> int:
     if workers is None:
-        from loiter.arrays.threads import cores
+        from loiter.arrays.application import cores
 
         return cores()
     if isinstance(workers, bool) or not isinstance(workers, int) or workers < 1:

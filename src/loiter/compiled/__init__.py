@@ -3,11 +3,3 @@
 The modules `single` and `loops` are built with the package from src/loiter/native. A package without them runs the same
 functions in plain Python.
 """
-
-from importlib import import_module
-from typing import Any
-
-
-def ufunc(name: str) -> Any:
-    """The ufunc `name` of `ufuncs`."""
-    return getattr(import_module(f"{__name__}.ufuncs"), name)
