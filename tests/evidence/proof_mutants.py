@@ -297,8 +297,7 @@ def too_long(*_: object) -> None:
 
 def refused_by(function: str) -> tuple[str, str]:
     """The first lemma that is not certain, with its sentence; the slowest lemmas are checked last."""
-    from loiter.evidence.proof.lemmas import LEMMAS
-    from loiter.evidence.proof.run import check
+    from loiter.evidence.proof.lemmas import LEMMAS, check
 
     def rank(section: str) -> int:
         return -1 if function in SELECTING and section == "theorem 2 b" else section in SLOW and 1 + SLOW.index(section)

@@ -16,7 +16,7 @@ from loiter.errors import MissingPackage
 from loiter.evidence.proof import balls, lemmas, rlr, switching
 from loiter.evidence.proof.algebra import Field
 from loiter.evidence.proof.balls import Interval
-from loiter.evidence.proof.run import check, prove
+from loiter.evidence.proof.lemmas import check, prove
 from loiter.evidence.proof.sign_proofs import NEGATIVE, NEVER_NEGATIVE, POSITIVE, Impossible, NotProved
 from loiter.kernel import angles, entry, exact, motion, rounding, words
 from loiter.kernel.still_air import extremals, switching_curves, synthesis

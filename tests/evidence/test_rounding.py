@@ -1,7 +1,6 @@
 """Theorem 4 of docs/proof.md: bounds on the rounding error of T, and that unstable formulas have none."""
 
 import re
-from contextlib import contextmanager
 from fractions import Fraction
 from pathlib import Path
 from random import Random
@@ -133,14 +132,6 @@ def test_differences_of_squares_have_the_error_that_the_theorem_assumes():
 # The arithmetic itself
 
 
-@contextmanager
-def precision(bits):
-    """Balls of more digits inside a block."""
-    before, flint().ctx.prec = flint().ctx.prec, bits
-    yield
-    flint().ctx.prec = before
-
-
 def test_bounds_contain_the_errors_of_doubles():
     """Random expressions: the double lies within the bound of the exact value, and the bound is of that size."""
     random = Random(7)
@@ -156,7 +147,7 @@ def test_bounds_contain_the_errors_of_doubles():
         )
         bounded = formula(*(Rounded(flint().arb(v)) for v in (a, b, c)), root)
         double = formula(a, b, c, lambda v: v**0.5)
-        with precision(200):
+        with flint().ctx.workprec(200):
             exactly = formula(*(Rounded(flint().arb(v)) for v in (a, b, c)), root).value
         assert float(abs(exactly - double)) <= bounded.error < 1e-13
 

@@ -9,9 +9,8 @@ from rich.table import Table
 
 from loiter.cli import report
 from loiter.cli.status import CHECK_FAILED
-from loiter.evidence.proof.lemmas import LEMMAS, ROUNDING
-from loiter.evidence.proof.run import Finding
-from loiter.evidence.proof.run import prove as findings_of
+from loiter.evidence.proof.lemmas import LEMMAS, ROUNDING, Finding
+from loiter.evidence.proof.lemmas import prove as findings_of
 
 
 def prove(

@@ -1,18 +1,21 @@
-"""The lemmas of docs/proof.md as checks: each raises `NotProved`, or says how many cases and boxes it took.
+"""The lemmas of docs/proof.md as checks, and all of them checked one after the other.
 
-Identities are checked in exact algebra, on the kernel's own functions, inequalities in ball arithmetic.
+Each check raises `NotProved`, or says how many cases and boxes it took. Identities are checked in exact algebra, on the
+kernel's own functions, inequalities in ball arithmetic.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from functools import partial
+from collections.abc import Callable, Iterator, Sequence
+from time import perf_counter
 from typing import NamedTuple
 
 from loiter.evidence.proof import arrivals, rlr, rounding, switching
+from loiter.evidence.proof.algebra import flint
 from loiter.evidence.proof.answers import maneuvers, turns
 from loiter.evidence.proof.balls import Certainty
 from loiter.evidence.proof.selection import coinciding, compared_words
+from loiter.evidence.proof.sign_proofs import NotProved
 
 
 class Lemma(NamedTuple):
@@ -54,7 +57,7 @@ LEMMAS = (
 
 def _of_word(region: rounding.Region) -> Lemma:
     statement = f"{region.word}: T is off by at most {region.limit:g} units"
-    return Lemma("theorem 4", statement, partial(rounding.bound_word, region))
+    return Lemma("theorem 4", statement, lambda: rounding.bound(region).certainty)
 
 
 # Theorem 4, for `loiter prove --rounding`.
@@ -63,3 +66,39 @@ ROUNDING = (
     Lemma("theorem 4", "the sum of three angles is off by at most 40 x 2^-52", rounding.sum_of_angles),
     *map(_of_word, rounding.regions()),
 )
+
+
+class Finding(NamedTuple):
+    """The result of one lemma: what it took, in cases and seconds, or why it is not certain."""
+
+    lemma: Lemma
+    certainty: Certainty
+    seconds: float
+    failure: str
+
+    @property
+    def verdict(self) -> str:
+        """The verdict: certain, or not."""
+        return "NOT CERTAIN" if self.failure else "certain"
+
+
+def prove(lemmas: Sequence[Lemma] = LEMMAS) -> Iterator[Finding]:
+    """Check every lemma.
+
+    Raises `MissingPackage` at the call, not at the first result, where python-flint is not installed.
+    """
+    flint()
+    return map(check, lemmas)
+
+
+def check(lemma: Lemma) -> Finding:
+    """The finding of one lemma."""
+    started, failure, certainty = perf_counter(), "", Certainty(0, 0)
+    try:
+        certainty = lemma.check()
+    except NotProved as reason:
+        failure = str(reason)
+    except Exception as error:  # noqa: BLE001
+        # A formula that the arithmetic cannot evaluate has not been checked.
+        failure = f"{type(error).__name__}: {error}"
+    return Finding(lemma, certainty, perf_counter() - started, failure)

@@ -111,20 +111,11 @@ class Bound(NamedTuple):
 
 def bound(region: Region) -> Bound:
     """The bound of a word on its region; raises `NotProved` where it would exceed `LIMIT`."""
-    before, flint().ctx.prec = flint().ctx.prec, BITS
-    try:
-        return _bound(region)
-    finally:
-        flint().ctx.prec = before
+    with flint().ctx.workprec(BITS):
+        return _bound(region, word_functions())
 
 
-def bound_word(region: Region) -> Certainty:
-    """What the bound of a word took."""
-    return bound(region).certainty
-
-
-def _bound(region: Region) -> Bound:
-    copied = word_functions()
+def _bound(region: Region, copied: Callable[[Function], Function]) -> Bound:
     waiting, cases, deepest, worst = [(box, 0) for box in region.boxes], 0, 0, 0.0
     while waiting:
         box, depth = waiting.pop()
@@ -144,35 +135,22 @@ def sum_of_angles() -> Certainty:
 
     Rotations by up to half a turn are enough, since the others are their opposites.
     """
-    before, flint().ctx.prec = flint().ctx.prec, BITS
-    names = arithmetic() | {"fold_half_turn": fold_half_turn}
-    sum_of = rebinding(names)(angles.total_angle)
+    undecided, half = flint().arb(0, 1), Interval(0.0, 3.1416)
 
     def spare(*turned: Any) -> Any:
-        total = sum_of(*((Rounded(angle.sin()), Rounded(angle.cos())) for angle in turned))
-        return flint().arb(OF_SUM - total.error) if total.error < OF_SUM else flint().arb(0, 1)
-
-    try:
-        half = Interval(0.0, 3.1416)
-        return balls.positive("the sum of three angles", undecided_as_zero(spare), [(half, half, half)])
-    finally:
-        flint().ctx.prec = before
-
-
-def undecided_as_zero(margin: Callable[..., Any]) -> Callable[..., Any]:
-    """A margin that is around 0, so that its box is halved, where a bound cannot be decided."""
-
-    def decided(*box: Any) -> Any:
         try:
-            return margin(*box)
+            total = sum_of(*((Rounded(angle.sin()), Rounded(angle.cos())) for angle in turned))
         except Undecided:
-            return flint().arb(0, 1)
+            return undecided
+        return flint().arb(OF_SUM - total.error) if total.error < OF_SUM else undecided
 
-    return decided
+    with flint().ctx.workprec(BITS):
+        sum_of = rebinding(arithmetic() | {"fold_half_turn": fold_half_turn})(angles.total_angle)
+        return balls.positive("the sum of three angles", spare, [(half, half, half)])
 
 
 def lengths() -> Certainty:
-    """The lengths of rotations in closed form that bounds use: `about_left`, `about_right`, `of_arc`."""
+    """The lengths of rotations in closed form that bounds use: `about`, `of_arc`."""
     cases = 0
     for case in CASES.values():
         for region in regions_of(case):
@@ -213,17 +191,14 @@ def word_functions() -> Callable[[Function], Function]:
         names
         | {
             "snap_full_turn": without_tolerance,
-            "squared_distance": not_used,
+            # Its result serves `snap_full_turn` alone.
+            "squared_distance": lambda *numbers: None,
             "square_beyond": square_beyond,
             "within_reach": reach,
             "total_angle": total_angle,
             "rotation": known,
         }
     )
-
-
-def not_used(*numbers: Any) -> None:
-    """In place of a function of the kernel whose result serves `snap_full_turn` alone."""
 
 
 def square_beyond(a: Any, b: float) -> Rounded:
@@ -438,14 +413,9 @@ def left_right_left(angle: Any, share: Any, R: Any) -> State | None:
     return State(*left_of(angle, distance), R, distance, outer=signed(outer, -1), fold=signed(fold, -1))
 
 
-def about_left(state: State) -> tuple[Any, Any]:
-    """The lengths of the rotations of RL: rm^2 and R + 1."""
-    return state.distance.lower() * state.distance.lower(), state.R + 1
-
-
-def about_right(state: State) -> tuple[Any, Any]:
-    """The lengths of the rotations of LR: rp^2 and R - 1."""
-    return state.distance.lower() * state.distance.lower(), state.R - 1
+def about(side: int) -> Callable[[State], tuple[Any, Any]]:
+    """The lengths of the rotations of RL (side = 1): rm^2 and R + 1; or of LR: rp^2 and R - 1."""
+    return lambda state: (state.distance.lower() * state.distance.lower(), state.R + side)
 
 
 def about_curve(state: State) -> tuple[Any]:
@@ -498,110 +468,51 @@ SIDES = Interval(-1.0, -1.0), Interval(1.0, 1.0)
 CENTRE = octaves(-46, -4)
 
 
+def joins(name: str, boxes: Sequence[Box], state: Callable[..., State | None]) -> Region:
+    """The region of a word with a straight piece; LSR and RSR, inside the circle, have a larger limit."""
+    word, sign, outside = Word[name], 1 if name[0] == "L" else -1, name[-1] == "L"
+
+    def function(copied: Callable[[Function], Function], start: kernel.Start) -> kernel.Extremal:
+        join = kernel.external_join if outside else kernel.internal_join
+        extremal: kernel.Extremal = copied(join)(word, start.y if sign > 0 else -start.y, start, True)
+        return extremal
+
+    lengths, limit = of_arc(-1.0 if outside else 1.0), LIMIT if outside else 2.0 * LIMIT
+    return Region(name, boxes, state, function, BY_PLACE, lengths, limit)
+
+
+def crosses(
+    name: str, boxes: Sequence[Box], state: Callable[..., State | None], weights: tuple[float, ...] = BY_CROSSING
+) -> Region:
+    """The region, or a part of it, of RL or LR with the crossing that its name says."""
+    is_rl, branch = name.startswith("RL"), 1.0 if "right" in name else -1.0
+
+    def function(copied: Callable[[Function], Function], start: kernel.Start) -> kernel.Extremal:
+        extremal: kernel.Extremal = copied(kernel.rl if is_rl else kernel.lr)(start, branch)
+        return extremal
+
+    return Region(name, boxes, state, function, weights, about(1 if is_rl else -1))
+
+
 def regions() -> list[Region]:
     """The regions of the nine words, LR with the right crossing in two parts."""
     radii, wide = octaves(0, OCTAVES), octaves(1, OCTAVES)
     external = boxes(ROUND, octaves(1, 2 * OCTAVES), radii)
     # c is at least 1/8, so R - 2 is more than 2^-8.
     internal = boxes(ROUND, octaves(-3, OCTAVES), octaves(-8, OCTAVES))
+    near_end, in_centre = boxes(SIDES, SHARES, SHARES, radii), boxes(ROUND, CENTRE, [Interval(-1.0, 1.0)])
+    lrl = boxes(ROUND, SHARES, [Interval(1.0, 2.0)])
     return [
-        Region(
-            "LSL",
-            external,
-            joins_external(1),
-            lambda f, s: f(kernel.external_join)(Word.LSL, s.y, s, True),
-            BY_PLACE,
-            of_arc(-1.0),
-        ),
-        Region(
-            "RSL",
-            external,
-            joins_external(-1),
-            lambda f, s: f(kernel.external_join)(Word.RSL, -s.y, s, True),
-            BY_PLACE,
-            of_arc(-1.0),
-        ),
-        Region(
-            "LSR",
-            internal,
-            joins_internal(1),
-            lambda f, s: f(kernel.internal_join)(Word.LSR, s.y, s, True),
-            BY_PLACE,
-            of_arc(1.0),
-            2.0 * LIMIT,
-        ),
-        Region(
-            "RSR",
-            internal,
-            joins_internal(-1),
-            lambda f, s: f(kernel.internal_join)(Word.RSR, -s.y, s, True),
-            BY_PLACE,
-            of_arc(1.0),
-            2.0 * LIMIT,
-        ),
-        Region(
-            "RL, left crossing",
-            boxes(ROUND, SHARES, radii),
-            right_left(-1.0),
-            lambda f, s: f(kernel.rl)(s, -1.0),
-            BY_CROSSING,
-            about_left,
-        ),
-        Region(
-            "RL, right crossing",
-            boxes(ROUND, SHORT, radii),
-            right_left(1.0),
-            lambda f, s: f(kernel.rl)(s, 1.0),
-            BY_CROSSING,
-            about_left,
-        ),
-        Region(
-            "RL, right crossing, next to its end",
-            boxes(SIDES, SHARES, SHARES, radii),
-            right_left_last,
-            lambda f, s: f(kernel.rl)(s, 1.0),
-            BY_SHARES,
-            about_left,
-        ),
-        Region(
-            "LR, right crossing, R <= 2",
-            boxes(ROUND, SHARES, octaves(-52, 0)),
-            left_right_tight,
-            lambda f, s: f(kernel.lr)(s, 1.0),
-            BY_CROSSING,
-            about_right,
-        ),
-        Region(
-            "LR, right crossing, R >= 2",
-            boxes(ROUND, SHARES, wide),
-            left_right_wide,
-            lambda f, s: f(kernel.lr)(s, 1.0),
-            BY_CROSSING,
-            about_right,
-        ),
-        Region(
-            "LR, left crossing",
-            boxes(ROUND, SHARES, wide),
-            left_right_detour,
-            lambda f, s: f(kernel.lr)(s, -1.0),
-            BY_CROSSING,
-            about_right,
-        ),
-        Region(
-            "LR, left crossing, next to the centre of L",
-            boxes(ROUND, CENTRE, [Interval(-1.0, 1.0)]),
-            left_right_centre,
-            lambda f, s: f(kernel.lr)(s, -1.0),
-            BY_CURVE,
-            about_right,
-        ),
-        Region(
-            "LRL",
-            boxes(ROUND, SHARES, [Interval(1.0, 2.0)]),
-            left_right_left,
-            lambda f, s: f(kernel.lrl)(s),
-            BY_CURVE,
-            about_curve,
-            4.0 * LIMIT,
-        ),
+        joins("LSL", external, joins_external(1)),
+        joins("RSL", external, joins_external(-1)),
+        joins("LSR", internal, joins_internal(1)),
+        joins("RSR", internal, joins_internal(-1)),
+        crosses("RL, left crossing", boxes(ROUND, SHARES, radii), right_left(-1.0)),
+        crosses("RL, right crossing", boxes(ROUND, SHORT, radii), right_left(1.0)),
+        crosses("RL, right crossing, next to its end", near_end, right_left_last, BY_SHARES),
+        crosses("LR, right crossing, R <= 2", boxes(ROUND, SHARES, octaves(-52, 0)), left_right_tight),
+        crosses("LR, right crossing, R >= 2", boxes(ROUND, SHARES, wide), left_right_wide),
+        crosses("LR, left crossing", boxes(ROUND, SHARES, wide), left_right_detour),
+        crosses("LR, left crossing, next to the centre of L", in_centre, left_right_centre, BY_CURVE),
+        Region("LRL", lrl, left_right_left, lambda f, s: f(kernel.lrl)(s), BY_CURVE, about_curve, 4.0 * LIMIT),
     ]

@@ -15,6 +15,7 @@ from loiter.evidence.proof.algebra import Expression, Field
 from loiter.evidence.proof.balls import Certainty
 from loiter.evidence.proof.identities import require, variables, zero
 from loiter.evidence.proof.sign_proofs import (
+    ANY,
     NEGATIVE,
     NEVER_NEGATIVE,
     NEVER_POSITIVE,
@@ -221,10 +222,8 @@ def times_of_pieces() -> None:
 def tolerances() -> Certainty:
     """`snap_full_turn` and `is_near_circle` do what the text says, for every combination of signs."""
     cases = 0
-    for cross, dot, excess in product(SIGNS, SIGNS, SIGNS):
+    for cross, dot, excess in product(SIGNS, SIGNS, (*SIGNS, None)):
         cases += check_snapping(cross, dot, excess)
-    for cross, dot in product(SIGNS, SIGNS):
-        cases += without_tolerance_nothing_is_snapped(cross, dot)
     for inwards, outwards, wide in product(
         (NEGATIVE, NEVER_NEGATIVE), (POSITIVE, NEVER_POSITIVE), (NEGATIVE, NEVER_NEGATIVE)
     ):
@@ -232,31 +231,24 @@ def tolerances() -> Certainty:
     return Certainty(cases, 0)
 
 
-def check_snapping(cross_sign: Possible, dot_sign: Possible, excess: Possible) -> int:
-    """A rotation is none where its tangent times the radius is in [-arc_tolerance, 0); the number of cases."""
+def check_snapping(cross_sign: Possible, dot_sign: Possible, excess: Possible | None) -> int:
+    """A rotation is none where its tangent times the radius is in [-arc_tolerance, 0); the number of cases.
+
+    Without an `excess` the `arc_tolerance` is 0: then nothing is snapped where the radius is not 0.
+    """
     cross, dot, radius2, arc_tolerance, field = variables("cross dot radius2 arc_tolerance")
+    arc_tolerance = field.constant(0.0) if excess is None else arc_tolerance
     try:
-        field.assume(radius2, NEVER_NEGATIVE)
+        field.assume(radius2, POSITIVE if excess is None else NEVER_NEGATIVE)
         field.assume(arc_tolerance, NEVER_NEGATIVE)
         field.assume(cross, cross_sign)
         field.assume(dot, dot_sign)
-        field.assume(cross * cross * radius2 - arc_tolerance * arc_tolerance * dot * dot, excess)
+        field.assume(cross * cross * radius2 - arc_tolerance * arc_tolerance * dot * dot, excess or ANY)
     except Impossible:
         return 0
     found = rebinding(field.names())(angles.snap_full_turn)((cross, dot), radius2, arc_tolerance)
-    missing = cross_sign == NEGATIVE and dot_sign == POSITIVE and excess != POSITIVE
+    missing = cross_sign == NEGATIVE and dot_sign == POSITIVE and excess in (NEGATIVE, ZERO)
     zero("`snap_full_turn`", field.of(found[0]) - (0.0 if missing else cross), field.of(found[1]) - dot)
-    return 1
-
-
-def without_tolerance_nothing_is_snapped(cross_sign: Possible, dot_sign: Possible) -> int:
-    """With an `arc_tolerance` of 0 `snap_full_turn` changes nothing where the radius is not 0; the number of cases."""
-    cross, dot, radius2, field = variables("cross dot radius2")
-    field.assume(radius2, POSITIVE)
-    field.assume(cross, cross_sign)
-    field.assume(dot, dot_sign)
-    found = rebinding(field.names())(angles.snap_full_turn)((cross, dot), radius2, field.constant(0.0))
-    zero("`snap_full_turn` with 0", field.of(found[0]) - cross, field.of(found[1]) - dot)
     return 1
 
 

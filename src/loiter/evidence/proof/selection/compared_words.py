@@ -9,6 +9,7 @@ from __future__ import annotations
 import operator
 from collections.abc import Callable, Iterable, Iterator
 from math import inf
+from types import SimpleNamespace
 from typing import Any, NamedTuple
 
 from loiter.evidence.proof.algebra import flint
@@ -37,33 +38,18 @@ LSL, RSL, LSR, RSR = of(Word.LSL), of(Word.RSL), of(Word.LSR), of(Word.RSR)
 RL_LEFT, RL_RIGHT, LR_LEFT, LR_RIGHT = of(Word.RL, -1), of(Word.RL, 1), of(Word.LR, -1), of(Word.LR, 1)
 
 
-class Named(NamedTuple):
-    """The quantities by which words are selected, each as docs/proof.md writes it; D and h are those of `lrl`."""
-
-    x: Any
-    y: Any
-    R: Any
-    outer: Any
-    inner: Any
-    fold: Any
-    onto_right: Any  # rm^2 - (R + 1)^2
-    from_left: Any  # rp^2 - (R - 1)^2
-    tall: Any  # R - 1
-    wide: Any  # R - 2
-    far: Any  # rm^2 - (R + 3)^2
-    left: Any  # rp^2 - 1
-    right: Any  # rm^2 - 1
-    h: Any
-    D: Any
-    turn: Any  # the cross product of the rotation of LRL's first arc: it is not negative up to half a turn
+# The quantities by which words are selected, by their names.
+Named = SimpleNamespace
 
 
 def named(x: Any, y: Any, R: Any, turn: Any) -> Named:
-    """The quantities at a state, written without the kernel."""
-    point = Point(x, y)
-    q = quantities(point, R)
+    """The quantities at a state, written without the kernel: `Quantities`, and D and h, those of `lrl`.
+
+    `turn` is the cross product of the rotation of LRL's first arc: it is not negative up to half a turn.
+    """
+    q = quantities(Point(x, y), R)
     h, d = 0.5 * (R * (R + 2.0) + q.left), 0.25 * (R * (R + 2.0) - q.left)
-    return Named(x, y, R, *q, h, h * h - 3.0 * d * d, turn)
+    return Named(x=x, y=y, R=R, **q._asdict(), h=h, D=h * h - 3.0 * d * d, turn=turn)
 
 
 # Each sum is 0 at every state: checked on polynomials. What follows is in docs/proof.md, section 8.
@@ -109,7 +95,7 @@ def table_of(context: Any) -> Table:
     x, y, R, turn = context.gens()
     # `named` also takes doubles such as 0.5, which a polynomial by itself does not.
     q = named(*(Quantity(Signs(Table()), variable) for variable in (x, y, R, turn)))
-    deciding = {name: quantity.polynomial for name, quantity in q._asdict().items() if name not in OTHERS}
+    deciding = {name: quantity.polynomial for name, quantity in vars(q).items() if name not in OTHERS}
     deciding |= {"(h-6)": q.h.polynomial - 6, "(R+1)": R + 1, "(R-1)": R - 1, "(R-2)": R - 2, "(R-3)": R - 3}
     # D on the circle rp = 3 - R is the square of `wave`.
     auxiliary = {"wave": (R - 1) * (R - 1) - 3, "(y-1)": y - 1, "(y+1)": y + 1}
@@ -192,16 +178,7 @@ def words_at_turn_radius(q: Named) -> Iterator[Described]:
 
 
 # The words of lemma 1, as `fastest` records them.
-WORDS = {
-    "LSL": LSL,
-    "RSL": RSL,
-    "LSR": LSR,
-    "RSR": RSR,
-    "RL, left crossing": RL_LEFT,
-    "RL, right crossing": RL_RIGHT,
-    "LR, left crossing": LR_LEFT,
-    "LR, right crossing": LR_RIGHT,
-}
+WORDS = {name: of(Word[name.partition(",")[0]], int(sum(case.crossing))) for name, case in CASES.items()}
 
 # The words whose first arc crosses the axis where y >= 0: section 6 (b).
 CROSSING_THE_AXIS = LSL, RSR, RL_RIGHT, LR_LEFT

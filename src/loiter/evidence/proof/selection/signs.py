@@ -15,7 +15,7 @@ from math import inf
 from typing import Any, NamedTuple
 
 from loiter.evidence.proof.algebra import flint
-from loiter.evidence.proof.sign_proofs import ANY, NEVER_NEGATIVE, Impossible, NotProved, Possible, plus, times
+from loiter.evidence.proof.sign_proofs import ANY, NEVER_NEGATIVE, Impossible, NotProved, Possible, plus, scaled, times
 
 SIGNS = (-1, 0, 1)
 
@@ -290,30 +290,25 @@ class Table:
             if relation.value(quantities) != 0:
                 raise NotProved(f"{relation.text} is not 0")
         self.related = {name: [r for r in self.relations if r.mentions(name)] for name in deciding}
-        self.names = {_scaled(polynomial): name for name, polynomial in deciding.items()}
-        self.leading = {name: polynomial.leading_coefficient() for name, polynomial in deciding.items()}
+        self.names = {key: (name, sign) for name, polynomial in deciding.items() for key, sign in [scaled(polynomial)]}
 
     def has_name(self, polynomial: Any) -> bool:
         """Whether a polynomial is a multiple of a named one."""
-        return _scaled(polynomial) in self.names
+        return scaled(polynomial)[0] in self.names
 
     def named(self, polynomial: Any) -> tuple[str, int]:
         """The name of a polynomial up to a factor, and the sign of the factor; raises `NotProved`."""
-        name = self.names.get(_scaled(polynomial))
-        if name is None:
+        key, sign = scaled(polynomial)
+        if key not in self.names:
             raise NotProved(f"the selection decides by an unknown quantity, {polynomial}")
-        return name, 1 if polynomial.leading_coefficient() * self.leading[name] > 0 else -1
+        name, own = self.names[key]
+        return name, sign * own
 
     def excludes(self, chosen: Mapping[str, int], newest: str) -> bool:
         """Whether no state has the chosen signs; those without the newest are known to be possible."""
         if chosen[newest] not in self.ranges.get(newest, SIGNS):
             return True
         return any(relation.excludes(chosen) for relation in self.related[newest])
-
-
-def _scaled(polynomial: Any) -> str:
-    """What a polynomial and its multiples have in common, as text."""
-    return str(polynomial / polynomial.leading_coefficient())
 
 
 def every_case(signs: Signs, run: Callable[[], None]) -> int:
