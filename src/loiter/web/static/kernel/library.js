@@ -212,14 +212,12 @@ return edges_of(self.polygons);
 get circles() { return cached(this, "circles", () => {
 let rows_;
 const self = this;
-
 rows_ = list(iter(self.circle_zones)).map((z) => [z.east_m, z.north_m, z.radius_m, (truth(z.inclusion) ? -1.0 : 1.0)]);
 return Circles(...iter(np.array(rows_, float).reshape(-1, 4).T));
 }); }
 signed_distances(east_m, north_m) {
 let allowed, inside, nearest, outside;
 const self = this;
-
 
 outside = sub(np.hypot(sub(self.circles.x, east_m), sub(self.circles.y, north_m)), self.circles.radius);
 if (!truth(self.polygons)) {
@@ -2254,7 +2252,6 @@ throw errors.InvalidArgument("fence", `has the inclusion zones ${str(names)} wit
 
 function edges_of(polygons) {
 let ax, ay, bx, by, counts, ends, first, starts;
-
 starts = list(iter(polygons)).flatMap((zone) => list(iter(zone.corners)).map((corner) => corner));
 ends = list(iter(polygons)).flatMap((zone) => list(iter([...iter(sliced(zone.corners, 1, null, null)), item(zone.corners, 0)])).map((corner) => corner));
 counts = list(iter(polygons)).map((zone) => len(zone.corners));
@@ -2276,7 +2273,6 @@ this.sign = sign;
 
 function to_edge(x, y, edges) {
 let ex, ey, px, py, share;
-
 [ex, ey] = iter([sub(edges.bx, edges.ax), sub(edges.by, edges.ay)]);
 [px, py] = iter([sub(x, edges.ax), sub(y, edges.ay)]);
 share = np.clip(div(add(mul(px, ex), mul(py, ey)), add(mul(ex, ex), mul(ey, ey))), 0.0, 1.0);
@@ -3413,7 +3409,6 @@ return max(LEAST_MARGIN_M, mul(MARGIN_SHARE, orbit.radius_m));
 
 function flown_path(flown) {
 let maneuver, rows_;
-
 maneuver = (truth(isinstance(flown, LegPlan)) ? flown.entry : flown);
 rows_ = list(iter(maneuver.segments)).map((segment) => _segment_row(segment, maneuver));
 append_(rows_, (truth(maneuver.orbit.moves) ? _moving_hold_row(maneuver) : _hold_row(maneuver)));
@@ -3440,7 +3435,6 @@ return [fence.polygons, fence.circle_zones];
 
 function approach(fence, pieces, margin_m) {
 let bent, circles, j, parts, polygons, zones;
-
 [polygons, circles] = iter([Closest.none(len(fence.polygons)), Closest.none(len(fence.circle_zones))]);
 bent = item(pieces.bent.nonzero(), 0);
 if (truth(fence.polygons)) {
@@ -4423,7 +4417,6 @@ return Pieces(...iter(list(iter(self)).map((column) => item(column, i))));
 position(time_s) {
 let angle, ch, chord, half, sh, x;
 const self = this;
-
 angle = div(mul(time_s, self.speed), self.radius);
 half = mul(mul(0.5, self.u), angle);
 chord = mul(self.radius, np.where(eq(self.u, 0.0), angle, mul(2.0, np.sin(mul(0.5, angle)))));
@@ -4457,13 +4450,11 @@ this.time_s = time_s;
 
 }
 static none(cls, count) {
-
 return cls(np.full(count, np.inf), np.zeros(count, np.intp), np.zeros(count));
 }
 note(zone, distance, piece, time_s) {
 let best;
 const self = this;
-
 np.minimum.at(self.distance, zone, distance);
 best = eq(distance, item(self.distance, zone));
 const unpacked1 = iter([item(piece, best), item(time_s, best)]);
@@ -4480,7 +4471,6 @@ _note(closest, found.distance, found.share, pieces, bent, edges.zone);
 
 function _near_edges(closest, pieces, edges, margin_m) {
 let at, chords, half, keep, middle, parts, piece, upper, x, y, zone;
-
 parts = first_parts(pieces, item(invert(pieces.bent).nonzero(), 0));
 [chords, zone] = iter([Chords.of(pieces, parts), np.broadcast_to(edges.zone, [parts.piece.size, edges.zone.size])]);
 [x, y] = iter([mul(0.5, item(add(chords.ax, chords.bx), [slice(null, null), null])), mul(0.5, item(add(chords.ay, chords.by), [slice(null, null), null]))]);
@@ -4495,7 +4485,6 @@ return [parts.take(floordiv(keep, edges.zone.size)), mod(keep, edges.zone.size)]
 
 function search__search(closest, pieces, parts, j, bounds, zone, margin_m, unsigned) {
 let _, found, keep;
-
 for (_ of iter(range(MOST_LEVELS))) {
 if (!truth(parts.piece.size)) {
 return;
@@ -4519,7 +4508,6 @@ return bounds;
 
 function _note_arcs_to_circles(closest, pieces, bent, circles) {
 let distance, largest, least, outside;
-
 [least, largest] = iter(arc_to_point(arcs_of(pieces.take(bent)), circles.x, circles.y));
 outside = gt(circles.sign, 0.0);
 distance = mul(circles.sign, sub(np.where(outside, least.distance, largest.distance), circles.radius));
@@ -4528,14 +4516,12 @@ _note(closest, distance, np.where(outside, least.share, largest.share), pieces, 
 
 function _pairs(parts, count) {
 let n;
-
 n = parts.piece.size;
 return [parts.take(np.repeat(np.arange(n), count)), np.tile(np.arange(count), n)];
 }
 
 function first_parts(pieces, chosen) {
 let angle, counts, k, piece, width;
-
 angle = div(mul(mul(abs(pieces.u), pieces.speed), pieces.duration_s), pieces.radius);
 counts = item(np.maximum(1, np.ceil(div(angle, FIRST_PART_RAD))).astype(np.intp), chosen);
 piece = np.repeat(chosen, counts);
@@ -4546,7 +4532,6 @@ return Parts(piece, mul(k, width), mul(add(k, 1), width));
 
 function _circle_bounds(circles) {
 let bounds;
-
 bounds = function (chords, parts, j) {
 let each, far, found, from_a, from_b, near, outside, shift, x, y;
 [x, y] = iter([item(circles.x, j), item(circles.y, j)]);
@@ -4564,7 +4549,6 @@ return bounds;
 
 function first_entry(pieces, zone) {
 let entry, searched, simple, until_s;
-
 simple = bit_and(bit_or(eq(pieces.u, 0.0), pieces.bent), eq(pieces.widen, 0.0));
 entry = _first_touch(pieces, simple, zone);
 until_s = (lt(entry.distance, np.inf) ? add(item(pieces.start_s, entry.piece), entry.time_s) : np.inf);
@@ -4574,7 +4558,6 @@ return (truth(searched.size) ? _searched_entry(pieces, searched, zone, entry, un
 
 function least_distance(pieces, zone) {
 let _, best, found, i, parts, signed;
-
 [signed, parts] = iter([Signed(zone), first_parts(pieces, np.arange(pieces.x.size))]);
 best = PlaceInPath(np.inf, 0, 0.0);
 for (_ of iter(range(MOST_LEVELS))) {
@@ -5379,7 +5362,6 @@ return Arcs(sub(p.x, mul(p.radius, nx)), sub(p.y, mul(p.radius, ny)), p.radius, 
 
 function _note(closest, distance, share, pieces, bent, zone) {
 let own, piece;
-
 piece = np.broadcast_to(item(bent, [slice(null, null), null]), distance.shape);
 own = np.broadcast_to(zone, distance.shape);
 closest.note(own.ravel(), distance.ravel(), piece.ravel(), mul(share, item(pieces.duration_s, piece)).ravel());
@@ -5410,7 +5392,6 @@ return Chords(...iter(list(iter(self)).map((column) => item(column, [slice(null,
 
 function _undecided(closest, lower, zone, margin_m, unsigned) {
 let known, matters, touches;
-
 known = item(closest.distance, zone);
 touches = (truth(unsigned) ? le(known, TOUCH_M) : np.zeros(known.shape, bool));
 matters = bit_or(le(lower, add(margin_m, TOUCH_M)), lt(lower, sub(closest.distance.min(), RESOLUTION_M)));
@@ -5432,7 +5413,6 @@ return Bounds(sub(distance, chords.off), add(distance, chords.off), at);
 
 function arc_to_point(arcs, x, y) {
 let at_ends, away, ends, far, largest, least, near, qx, qy, r, safe, towards, vx, vy, zero;
-
 [vx, vy] = iter([sub(x, arcs.x), sub(y, arcs.y)]);
 r = np.hypot(vx, vy);
 safe = np.maximum(r, np.finfo(float).tiny);
@@ -5458,7 +5438,6 @@ this.b = b;
 split() {
 let shares, times;
 const self = this;
-
 shares = div(np.arange(add(SPLIT, 1)), SPLIT);
 times = add(item(self.a, [slice(null, null), null]), mul(shares, item(sub(self.b, self.a), [slice(null, null), null])));
 return Parts(np.repeat(self.piece, SPLIT), item(times, [slice(null, null), slice(null, -1)]).ravel(), item(times, [slice(null, null), slice(1, null)]).ravel());
@@ -5471,7 +5450,6 @@ return Parts(item(self.piece, i), item(self.a, i), item(self.b, i));
 
 function chord_to_point(ax, ay, bx, by, x, y) {
 let share;
-
 share = foot_share(x, y, ax, ay, bx, by);
 return Nearest(np.hypot(sub(add(ax, mul(share, sub(bx, ax))), x), sub(add(ay, mul(share, sub(by, ay))), y)), share);
 }
@@ -5497,7 +5475,6 @@ this.at = at;
 
 function _first_touch(pieces, simple, zone) {
 let arcs, ax, ay, bent, bx, by, edges, i, lines, share, straight, times, touched;
-
 [share, edges] = iter([np.full(pieces.x.size, np.inf), edges_of((truth(isinstance(zone, PolygonZone)) ? [zone] : []))]);
 [bent, straight] = iter(list(iter([pieces.bent, eq(pieces.u, 0.0)])).map((kind) => item(bit_and(simple, kind).nonzero(), 0)));
 if (truth(bent.size)) {
@@ -5528,7 +5505,6 @@ return PlaceInPath(0.0, int(item(touched, i)), float(item(times, i)));
 
 function _searched_entry(pieces, searched, zone, known, known_s) {
 let _, before, entry, entry_s, found, i, keep, parts, signed, step_s, times;
-
 [signed, parts] = iter([Signed(zone), first_parts(pieces, searched)]);
 step_s = div(TOUCH_M, float(add(pieces.speed, np.hypot(pieces.wx, pieces.wy)).max()));
 [entry, entry_s] = iter([known, known_s]);
@@ -5559,7 +5535,6 @@ const self = this;
 bounds(chords, parts) {
 let at_a, at_b, is_circle, lower, upper;
 const self = this;
-
 is_circle = isinstance(self._zone, CircleZone);
 [lower, at_a, at_b] = iter((truth(is_circle) ? self._circle_bounds(chords) : self._polygon_bounds(chords)));
 upper = sub(np.minimum(at_a, at_b), chords.widen);
@@ -5568,7 +5543,6 @@ return Bounds(sub(sub(lower, chords.off), chords.widen), upper, np.where(lt(at_b
 _circle_bounds(chords) {
 let at_a, at_b, near, zone;
 const self = this;
-
 zone = self._zone;
 
 [at_a, at_b] = iter([self.at(chords.ax, chords.ay), self.at(chords.bx, chords.by)]);
@@ -5581,7 +5555,6 @@ return [sub(near.distance, zone.radius_m), at_a, at_b];
 _polygon_bounds(chords) {
 let c, deepest, found, lower, near, side_a, side_b, sides, zone;
 const self = this;
-
 [zone, c] = iter([self._zone, chords.columns()]);
 
 found = chord_to_edge(c.ax, c.ay, c.bx, c.by, self._edges);
@@ -5595,7 +5568,6 @@ return [lower, mul(side_a, found.from_a.min({ axis: 1 })), mul(side_b, found.fro
 at(x, y) {
 let outside, zone;
 const self = this;
-
 zone = self._zone;
 if (truth(isinstance(zone, CircleZone))) {
 outside = sub(np.hypot(sub(x, zone.east_m), sub(y, zone.north_m)), zone.radius_m);
@@ -5992,7 +5964,6 @@ return rows_;
 
 function placed(curves, rows_) {
 let a, anywhere, dx, dy, indices, joined, normal, places, radius, shares, ways, width, x, y;
-
 [indices, shares, ways] = iter(list(iter(zip(...iter(rows_)))).map((column) => np.array(column)));
 [x, y, radius, a, width, dx, dy] = iter(item(np.array(list(iter(curves)).map((curve) => sliced(curve, null, 7, null))), indices).T);
 normal = add(a, mul(shares, width));
@@ -6003,7 +5974,6 @@ return Contacts(indices, shares, ways, ...iter(places), add(normal, mul(ways, mu
 
 function clear_points(fence, east_m, north_m, margin_m) {
 let clear, distance, outside, zone;
-
 clear = np.ones(east_m.size, bool);
 for (zone of iter(fence.zones)) {
 if (truth(isinstance(zone, CircleZone))) {
@@ -6021,7 +5991,6 @@ const ChainSearch = struct(class extends Values {
 constructor(air, start, contacts, most_m, most_poses) {
 super();
 const self = this;
-
 [self._air, self._start, self._contacts] = iter([air, start, contacts]);
 self._headings = air.headings(contacts);
 self._least = air.least_lengths(contacts, self._headings);
@@ -6080,7 +6049,6 @@ return Pose2(float(item(self._contacts.x, node)), float(item(self._contacts.y, n
 _expand(node) {
 let at, bound, order, words;
 const self = this;
-
 at = (eq(node, self._contacts.x.size) ? null : node);
 words = self._air.words(self._pose(node), at, self._contacts, self._headings);
 bound = add(add(item(self._length, node), _cost(words)), item(self._least, words.to));
@@ -6158,7 +6126,6 @@ return merged;
 
 function _least(distances, shares) {
 let best, every;
-
 every = np.stack(distances);
 best = every.argmin({ axis: 0 });
 return Nearest(every.min({ axis: 0 }), np.choose(best, shares));
@@ -6166,7 +6133,6 @@ return Nearest(every.min({ axis: 0 }), np.choose(best, shares));
 
 function arc_edge_points(arcs, edges) {
 let across, along, directions, distance, ends, ex, ey, h, length, qx, qy, r, shape, share, vx, vy;
-
 [ex, ey] = iter([sub(edges.bx, edges.ax), sub(edges.by, edges.ay)]);
 length = np.hypot(ex, ey);
 [ex, ey] = iter([div(ex, length), div(ey, length)]);
@@ -6202,14 +6168,12 @@ this.angle = angle;
 share(qx, qy) {
 let turned;
 const self = this;
-
 turned = np.arctan2(mul(self.u, sub(mul(self.nx, qy), mul(self.ny, qx))), add(mul(self.nx, qx), mul(self.ny, qy)));
 return div(np.where(lt(turned, 0.0), add(turned, mul(2.0, np.pi)), turned), np.maximum(self.angle, np.finfo(float).tiny));
 }
 direction(share) {
 let c, s;
 const self = this;
-
 [c, s] = iter([np.cos(mul(share, self.angle)), mul(self.u, np.sin(mul(share, self.angle)))]);
 return [sub(mul(self.nx, c), mul(self.ny, s)), add(mul(self.ny, c), mul(self.nx, s))];
 }
@@ -6217,7 +6181,6 @@ return [sub(mul(self.nx, c), mul(self.ny, s)), add(mul(self.ny, c), mul(self.nx,
 
 function chord_edge_points(ax, ay, bx, by, edges) {
 let c, crosses, crossing, d, from_a, from_b, zero;
-
 c = chord_to_point(ax, ay, bx, by, edges.ax, edges.ay);
 d = chord_to_point(ax, ay, bx, by, edges.bx, edges.by);
 [from_a, from_b] = iter([to_edge(ax, ay, edges), to_edge(bx, by, edges)]);
@@ -6248,7 +6211,6 @@ this.largest = largest;
 
 function foot_share(x, y, ax, ay, bx, by) {
 let along, ex, ey, length_2;
-
 [ex, ey] = iter([sub(bx, ax), sub(by, ay)]);
 length_2 = add(mul(ex, ex), mul(ey, ey));
 along = add(mul(sub(x, ax), ex), mul(sub(y, ay), ey));
@@ -6256,13 +6218,11 @@ return np.clip(np.divide(along, length_2, { out: np.zeros(np.broadcast(along, le
 }
 
 function first_within(distances, shares, within_m) {
-
 return np.where(le(np.stack(distances), within_m), np.stack(shares), np.inf).min({ axis: 0 });
 }
 
 function arc_circle_points(arcs, x, y, radius) {
 let apart, c, directions, from_centre, qx, qy, s, share, towards_x, towards_y, vx, vy;
-
 [vx, vy] = iter([sub(x, arcs.x), sub(y, arcs.y)]);
 apart = np.maximum(np.hypot(vx, vy), NO_LENGTH_M);
 [towards_x, towards_y] = iter([div(vx, apart), div(vy, apart)]);
@@ -6284,7 +6244,6 @@ return [zone.east_m, zone.north_m, zone.radius_m];
 
 function chord_circle_points(ax, ay, bx, by, x, y, radius) {
 let across, along, from_centre, half, length, near, share, zero;
-
 near = chord_to_point(ax, ay, bx, by, x, y);
 length = np.maximum(np.hypot(sub(bx, ax), sub(by, ay)), NO_LENGTH_M);
 along = div(add(mul(sub(x, ax), sub(bx, ax)), mul(sub(y, ay), sub(by, ay))), length);
@@ -6298,7 +6257,6 @@ return [np.where(bit_and(ge(share, 0.0), le(share, 1.0)), abs(sub(from_centre, r
 
 function polygon_sign(zone, east_m, north_m) {
 let inside;
-
 
 inside = shapely.contains_xy(zone._polygon, east_m, north_m);
 return np.where(eq(inside, zone.inclusion), 1.0, -1.0);
@@ -6448,7 +6406,6 @@ return contacts.angle;
 least_lengths(contacts, headings) {
 let c, dx, dy, least, orbit, r, radius, s;
 const self = this;
-
 [orbit, r] = iter([self._problem.orbit, self._radius_m]);
 [dx, dy, c, s] = iter([div(sub(contacts.x, orbit.east_m), r), div(sub(contacts.y, orbit.north_m), r), np.cos(headings), np.sin(headings)]);
 radius = max(self._problem.radius, 1.0);
@@ -6477,7 +6434,6 @@ return kernel.synthesis_ranked(...iter(state), kernel.rounded_radius(self._probl
 _along(at, contacts) {
 let curve, length, others, turned, way, zero;
 const self = this;
-
 [curve, way] = iter([item(self._curves, item(contacts.curve, at)), item(contacts.way, at)]);
 others = item(bit_and(eq(contacts.curve, item(contacts.curve, at)), eq(contacts.way, way)).nonzero(), 0);
 turned = mul(mul(sub(item(contacts.share, others), item(contacts.share, at)), way), curve.width);
@@ -6490,7 +6446,6 @@ return Words(others, np.full(length.shape, float(way)), length, np.full(length.s
 are_clear(start, words) {
 let angle, arcs, bent, c, chord, clear, ends, half, heading, k, length, next_x, next_y, nx, ny, radius, s, straight, u, x, y;
 const self = this;
-
 clear = np.ones(words.to.size, bool);
 [x, y, heading] = iter(list(iter(start)).map((value) => np.full(words.to.size, value)));
 for (k of iter(range(3))) {
@@ -6528,14 +6483,12 @@ self._radius_m = problem.aircraft.turn_radius_m;
 headings(contacts) {
 let across;
 const self = this;
-
 across = sub(mul(self._wy, np.cos(contacts.angle)), mul(self._wx, np.sin(contacts.angle)));
 return sub(contacts.angle, np.arcsin(across));
 }
 least_lengths(contacts, headings) {
 let dx, dy, free, least, orbit, r;
 const self = this;
-
 [orbit, r] = iter([self._problem.orbit, self._radius_m]);
 [dx, dy] = iter([div(sub(contacts.x, orbit.east_m), r), div(sub(contacts.y, orbit.north_m), r)]);
 least = np.zeros(contacts.x.size);
@@ -6576,7 +6529,6 @@ return list(iter(kernel.wind_search_ranked(problem))).filter((found) => eq(found
 are_clear(start, words) {
 let clear, counts, ends, flown, good, heading, i, j, k, length, n, r, step, tried, u, width, wind_x, wind_y, x, y;
 const self = this;
-
 [n, r] = iter([words.to.size, self._radius_m]);
 clear = np.ones(n, bool);
 [wind_x, wind_y] = iter([self._wx, self._wy]);
@@ -6702,7 +6654,6 @@ this.contacts = contacts;
 
 function crossing_share(ax, ay, bx, by, edges) {
 let across, along, cross, crosses, dx, dy, ex, ey, px, py, safe;
-
 [dx, dy, ex, ey] = iter([sub(bx, ax), sub(by, ay), sub(edges.bx, edges.ax), sub(edges.by, edges.ay)]);
 [px, py] = iter([sub(edges.ax, ax), sub(edges.ay, ay)]);
 cross = sub(mul(dx, ey), mul(dy, ex));
@@ -6858,7 +6809,6 @@ yield Curve(x, y, clearance_m, sub(normal, turned), turned, 0.0, 0.0, [1, -1]);
 
 function words_between(x, y, angle, to_x, to_y, to_angle, radius) {
 let across, along, c, control, dx, dy, exists, found, lengths, s, turned, u, word;
-
 [c, s] = iter([np.cos(angle), np.sin(angle)]);
 [dx, dy] = iter([div(sub(to_x, x), radius), div(sub(to_y, y), radius)]);
 [along, across, turned] = iter([add(mul(dx, c), mul(dy, s)), sub(mul(dy, c), mul(dx, s)), sub(to_angle, angle)]);
@@ -6902,20 +6852,17 @@ return Words(...iter(list(iter(self)).map((column) => item(column, i))));
 }
 static of(cls, words, radius) {
 let control, length, to;
-
 to = np.array(list(iter(words)).map((word) => word.to), np.intp);
 [control, length] = iter(list(iter([list(iter(words)).map((word) => word.control), list(iter(words)).map((word) => word.length)])).map((rows_) => np.array(rows_, float).reshape(-1, 3)));
 return cls(to, control, mul(length, radius), np.full(length.shape, radius));
 }
 static joined(cls, several) {
-
 return cls(...iter(list(iter(zip(...iter(several)))).map((columns) => np.concatenate(columns))));
 }
 }, ["to", "control", "length", "radius"], 'Words');
 
 function _clear_arcs(fence, arcs, margin_m) {
 let circles, clear, found, least, outside;
-
 [clear, least] = iter([np.ones(item(arcs.x.shape, 0), bool), add(margin_m, TOUCH_M)]);
 if (truth(fence.polygons)) {
 clear = bit_and(clear, gt(arc_to_edge(arcs, fence.edges).distance.min({ axis: 1 }), least));
@@ -6931,7 +6878,6 @@ return clear;
 
 function _clear_chords(fence, ends, margin_m) {
 let ax, ay, bx, by, circles, clear, far, least, near, outside;
-
 [ax, ay, bx, by] = iter(list(iter(ends)).map((v) => item(v, [slice(null, null), null])));
 [clear, least] = iter([np.ones(item(ax.shape, 0), bool), add(margin_m, TOUCH_M)]);
 if (truth(fence.polygons)) {
@@ -6974,7 +6920,6 @@ this.length = length;
 
 function airs__flown(x, y, heading, u, length, r, wx, wy) {
 let angle, chord, half;
-
 angle = div(length, r);
 [half, chord] = iter([add(heading, mul(mul(0.5, u), angle)), np.where(eq(u, 0.0), length, mul(mul(2.0, r), np.sin(mul(0.5, angle))))]);
 return [add(add(x, mul(chord, np.cos(half))), mul(wx, length)), add(add(y, mul(chord, np.sin(half))), mul(wy, length))];
@@ -7063,7 +7008,6 @@ return (ne(gt(area, 0.0), zone.inclusion) ? zone.corners : sliced(zone.corners, 
 
 function* _left_words(x, y, turned) {
 let ahead, course, cross, far, first, half, last, left_x, left_y, right_x, right_y;
-
 [left_x, left_y] = iter([sub(x, np.sin(turned)), sub(add(y, np.cos(turned)), 1.0)]);
 [right_x, right_y] = iter([add(x, np.sin(turned)), sub(sub(y, np.cos(turned)), 1.0)]);
 far = np.hypot(left_x, left_y);
@@ -7168,7 +7112,6 @@ this.last = last;
 
 function _arc(angle) {
 let within;
-
 within = np.mod(angle, math.tau);
 return np.where(gt(within, sub(math.tau, WHOLE_TURN)), 0.0, within);
 }
