@@ -3565,7 +3565,7 @@ local function reposition(is_held)
         local known, omega = flight.model.estimates, 2.0 * math.pi / (param:get("NAVL1_PERIOD") or 0.0)
         local east, north, V = known.wind_east_m_s, known.wind_north_m_s, known.airspeed_m_s
         local downwind = V + math.sqrt(east * east + north * north)
-        local error_m = 0.085 * (downwind * downwind - V * V) / (radius_m * omega * omega)
+        local error_m = 0.073 * (downwind * downwind - V * V) / (radius_m * omega * omega)
         radius_m = radius_m - math.min(error_m, 0.3 * radius_m)
     end
     if (param:get("NAVL1_LIM_BANK") or 0.0) <= 0.0 then

@@ -8,6 +8,7 @@ import sys
 from math import degrees, isnan, radians, tan
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -18,6 +19,8 @@ from loiter.cli.app import main
 from loiter.errors import InvalidArgument, RadiusTooSmall, WindTooStrong
 from loiter.geo import LocalFrame
 from loiter.guidance.protocol import State
+from loiter.guidance.rivals.l1 import circle_demand
+from loiter.guidance.vehicle.circle import circle_offset
 from loiter.guidance.vehicle.limits import clip
 from loiter.guidance.vehicle.rolling import Roll
 from loiter.guidance.vehicle.turning import PlanarPose, constant_turn
@@ -32,7 +35,7 @@ from loiter.mavlink.connection.link import Vehicle
 from loiter.mavlink.connection.round_trip import RoundTrip
 from loiter.mavlink.connection.streams import TRIES, Streams, guide_streams, rates_to_try_hz, watch_streams
 from loiter.mavlink.connection.telemetry import Telemetry
-from loiter.mavlink.guiding.hand_over import last_bank_deg, sent_radius_m
+from loiter.mavlink.guiding.hand_over import SentCircle, last_bank_deg, sent_circle
 from loiter.mavlink.guiding.holdability import HoldabilityWatch
 from loiter.mavlink.guiding.measurements import AirspeedSource, Measurements
 from loiter.mavlink.guiding.preparation import check_in_wind
@@ -536,6 +539,15 @@ def test_a_quiet_moment_is_waited_for_half_a_circle():
         assert 0.1 * i == pytest.approx(expected_s, abs=1.0)
 
 
+def test_a_place_on_a_wide_circle_is_waited_for_in_metres():
+    """2.5 m are within 1.5 % of 200 m; a vehicle that is handed over there begins outside."""
+    steady, wide = SteadyHoldDetector(Orbit(0.0, 0.0, 200.0)), []
+    for i in range(600):
+        steady.update(on_circle(0.52 * i, 202.5 if 0.1 * i < 30.0 else 200.0, time_s=0.1 * i))
+        wide.append(steady.settled)
+    assert wide.index(True) == pytest.approx(300, abs=10)
+
+
 def test_a_bank_that_swings_is_waited_for():
     """Place and course are on the circle all the time; the bank swings by 4 degrees at 0.75 Hz until 14 s."""
     steady = SteadyHoldDetector(CIRCLE)
@@ -599,33 +611,73 @@ def estimates(ratio=1.0, wind=(0.0, 0.0), airspeed=18.0):
 @pytest.mark.parametrize("ratio", [0.73, 0.8, 1.0])
 def test_the_sent_radius_is_the_one_that_the_guidance_of_arduplane_flies_as_ours(ratio):
     known = {"NAVL1_LIM_BANK": 45.0, "AIRSPEED_CRUISE": 18.0, "NAVL1_PERIOD": 15.0}
-    sent = sent_radius_m(CIRCLE, 100.0, known, estimates(ratio))
+    sent = sent_circle(CIRCLE, 100.0, known, estimates(ratio)).radius_m
     # On the circle of 80 m the demand for one of `sent`, of which the aircraft turns the share, is the one needed.
     demand = 18.0**2 / 80.0 + (2.0 * math.pi / 15.0) ** 2 * (80.0 - sent)
     assert ratio * demand == pytest.approx(18.0**2 / 80.0, rel=0.03)
     assert sent == round(sent)
-    assert sent_radius_m(CIRCLE, 100.0, known, None) == 80.0
-    assert sent_radius_m(CIRCLE, 100.0, {}, estimates(ratio)) == 80.0
+    assert sent_circle(CIRCLE, 100.0, known, None) == sent_circle(CIRCLE, 100.0, {}, estimates(ratio))
+    assert sent_circle(CIRCLE, 100.0, known, None) == SentCircle(0.0, 0.0, 80.0)
 
 
 @pytest.mark.parametrize("ratio", [0.85, 0.97, 1.1, 1.3])
 def test_a_radius_is_not_corrected_by_the_noise_of_a_turn_ratio(ratio):
     """A yaw damper trims such a slip away while the circle is flown: a correction moved the vehicle inside by 4 m."""
     known = {"NAVL1_LIM_BANK": 45.0, "AIRSPEED_CRUISE": 18.0, "NAVL1_PERIOD": 15.0}
-    assert sent_radius_m(CIRCLE, 100.0, known, estimates(ratio)) == 80.0
+    assert sent_circle(CIRCLE, 100.0, known, estimates(ratio)).radius_m == 80.0
 
 
-@pytest.mark.parametrize(("radius_m", "wind", "sent_m"), [(130.0, (7.0, 0.0), 120.0), (190.0, (0.0, -7.0), 177.0)])
-def test_in_wind_the_radius_is_smaller_by_what_the_circle_of_arduplane_lies_outside_downwind(radius_m, wind, sent_m):
-    known = {"NAVL1_LIM_BANK": 0.0, "NAVL1_PERIOD": 15.0}
-    orbit = Orbit(0.0, 0.0, radius_m, "cw")
-    assert sent_radius_m(orbit, 684.0, known, estimates(0.95, wind, 23.0)) == sent_m
-    assert sent_radius_m(orbit, 684.0, known, estimates(0.95, airspeed=23.0)) == round(radius_m / 1.0682)
+def flown_offsets_m(circle, turn, wind, ratio, settling):
+    """The most metres beside (0, 0, 150), and the first harmonic, in the second turn by ArduPlane's guidance.
+
+    At 23 m/s the aircraft banks 0.4 s late and turns at a ratio of which a share settles over 5 s.
+    """
+    side, dt, g = 1.0 if turn == "cw" else -1.0, 0.1, 9.80665
+    x, y, heading = 0.0, 150.0, side * math.pi / 2.0
+    demands = [side * 23.0**2 / 150.0 / g] * 4
+    settled, swept, rows = demands[0], 0.0, []
+    while swept < 4.0 * math.pi:
+        ve, vn = 23.0 * math.sin(heading) + wind[0], 23.0 * math.cos(heading) + wind[1]
+        offset = circle_offset(State(0.0, x, y, degrees(heading), 0.0, ve, vn, 23.0), Orbit(*circle[:3], turn))
+        demands.append(circle_demand(offset, side, 15.0, 0.75) / g)
+        demand = demands.pop(0)
+        settled += dt / 5.0 * (demand - settled)
+        heading += dt * ratio * ((1.0 - settling) * demand + settling * settled) * g / 23.0
+        before, x, y = math.atan2(x, y), x + dt * ve, y + dt * vn
+        swept += abs(math.remainder(math.atan2(x, y) - before, 2.0 * math.pi))
+        if swept > 2.0 * math.pi:
+            rows.append((math.hypot(x, y) - 150.0, math.atan2(x, y)))
+    outside_m, azimuth = np.array(rows).T
+    return max(abs(outside_m)), 2.0 * abs(np.mean(outside_m * np.exp(1j * azimuth)))
+
+
+@pytest.mark.parametrize("turn", ["cw", "ccw"])
+@pytest.mark.parametrize("wind", [(7.0, 0.0), (-3.0, -5.0), (0.0, -6.0)])
+@pytest.mark.parametrize(("ratio", "settling"), [(0.98, 0.15), (0.75, 0.0)])
+def test_in_wind_the_circle_that_is_sent_is_flown_as_ours(turn, wind, ratio, settling):
+    known = {"NAVL1_LIM_BANK": 45.0, "AIRSPEED_CRUISE": 18.0, "NAVL1_PERIOD": 15.0}
+    orbit, found = Orbit(0.0, 0.0, 150.0, turn), estimates(ratio, wind, 23.0)
+    sent = sent_circle(orbit, 100.0, known, found)
+    most_m, harmonic_m = flown_offsets_m(sent, turn, wind, ratio, settling)
+    without_m, whole_harmonic_m = flown_offsets_m(sent._replace(east_m=0.0, north_m=0.0), turn, wind, ratio, settling)
+    assert most_m < 1.7 < without_m
+    assert harmonic_m < 0.35 * whole_harmonic_m
+    assert f"centre {sent.displaced_m:.1f} m towards" in sent.remark(orbit)
+    assert sent_circle(orbit, 100.0, known, estimates(ratio, airspeed=23.0)).remark(orbit) == ""
+
+
+def test_the_damping_of_arduplane_counts():
+    known = {"NAVL1_LIM_BANK": 45.0, "AIRSPEED_CRUISE": 18.0, "NAVL1_PERIOD": 15.0}
+    found = estimates(0.98, (3.0, 0.0), 18.0)
+    default, soft = (sent_circle(CIRCLE, 100.0, known | {"NAVL1_DAMPING": d}, found) for d in (0.75, 0.5))
+    assert sent_circle(CIRCLE, 100.0, known, found) == default
+    assert soft.displaced_m > 1.05 * default.displaced_m
 
 
 def test_a_correction_of_the_radius_has_a_bound():
     known = {"NAVL1_LIM_BANK": 45.0, "AIRSPEED_CRUISE": 18.0, "NAVL1_PERIOD": 60.0}
-    assert sent_radius_m(CIRCLE, 100.0, known, estimates(0.6)) == 56.0
+    assert sent_circle(CIRCLE, 100.0, known, estimates(0.6)).radius_m == 56.0
+    assert sent_circle(CIRCLE, 100.0, known, estimates(0.6, (9.0, 0.0))).displaced_m == 4.0
 
 
 def test_the_last_bank_is_that_of_the_circle_a_little_ahead():

@@ -60,6 +60,7 @@ PARAMETERS: dict[Autopilot, dict[tuple[str, ...], Need]] = {
         ("RLL2SRV_TCONST",): Need.WANTED,
         ("RLL2SRV_RMAX",): Need.WANTED,
         ("NAVL1_PERIOD",): Need.WANTED,
+        ("NAVL1_DAMPING",): Need.OPTIONAL,
         ("FENCE_ENABLE",): Need.WANTED,
         ("RCMAP_ROLL",): Need.WANTED,
         ("RCMAP_PITCH",): Need.WANTED,

@@ -22,7 +22,7 @@ from loiter.mavlink.autopilots.steering import AccelerationSteering, RollSteerin
 from loiter.mavlink.connection.command import PendingCommand, hold_command, mode_command
 from loiter.mavlink.connection.link import ACTIVE
 from loiter.mavlink.guiding.contact import STEP_S, Contact
-from loiter.mavlink.guiding.hand_over import last_bank_deg, sent_radius_m
+from loiter.mavlink.guiding.hand_over import SentCircle, last_bank_deg, sent_circle
 from loiter.mavlink.guiding.holdability import HoldabilityWatch
 from loiter.mavlink.guiding.monitor import StopReason
 from loiter.mavlink.guiding.preparation import FlightSetup, GuideRequest, choose, prepare
@@ -84,6 +84,7 @@ class GuidedFlight:
         self._law: LoiterEntry
         self._holdability: HoldabilityWatch
         self._steady = SteadyHoldDetector(self.orbit)
+        self._sent: SentCircle
         # What has been done: whether the fall-back circle was commanded and accepted, whether banks are commanded.
         self._commanded = self._accepted = self._steered = False
         self._accepted_at = inf
@@ -299,6 +300,8 @@ class GuidedFlight:
         self._stage = Stage.HANDED_OVER
         turn = self.orbit.turn.described
         self._notices.append(f"Handed over: {self._contact.name} holds the circle {turn} by its own guidance.")
+        if remark := self._sent.remark(self.orbit):
+            self._notices.append(remark)
         return self._take_report(monotonic())
 
     # A lost link, and the end.
@@ -551,11 +554,11 @@ class GuidedFlight:
         return estimates if ratio is None else estimates._replace(turn_ratio=bounded_turn_ratio(ratio))
 
     def _hold_command(self) -> PendingCommand:
-        """The command to hold the circle, with the radius with which the vehicle flies that of the orbit."""
+        """The command to hold the circle, with the circle that the vehicle flies as the orbit."""
         altitude_m = self._setup.altitude_m
         estimates = self._measured_estimates(LASTING_S) if self._steered else None
-        radius_m = sent_radius_m(self.orbit, altitude_m, self._contact.parameters.known, estimates)
-        latitude_deg, longitude_deg = self._request.frame.to_geodetic(self.orbit.east_m, self.orbit.north_m)
+        circle = self._sent = sent_circle(self.orbit, altitude_m, self._contact.parameters.known, estimates)
+        latitude_deg, longitude_deg = self._request.frame.to_geodetic(circle.east_m, circle.north_m)
         place = float(latitude_deg), float(longitude_deg), altitude_m
-        message = hold_command(self._contact.link.vehicle, place, radius_m, self.orbit.turn)
+        message = hold_command(self._contact.link.vehicle, place, circle.radius_m, self.orbit.turn)
         return PendingCommand(message, "hold the circle", REPEAT_S)

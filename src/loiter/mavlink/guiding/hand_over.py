@@ -1,18 +1,25 @@
-"""The commands at the hand-over of a vehicle to its own hold: the radius of the circle, and the last bank.
+"""The commands at the hand-over of a vehicle to its own hold: the circle that is sent, and the last bank.
 
-ArduPlane keeps the last bank for 3 s, and then holds a circle whose radius has a steady error if its turns are not as
-fast as g tan(bank)/V. Its guidance (AP_L1_Control::update_loiter) demands the lateral acceleration V^2/r + Kx e on a
-circle of radius r that is e wider than commanded, with Kx = (2 pi/NAVL1_PERIOD)^2. It gets the share k of it, the turn
-ratio, and V^2/r is needed: e = (1 - k)/k V^2/(r Kx). The radius that is sent is smaller by e.
+ArduPlane keeps the last bank for 3 s, and then flies a circle by its own guidance (AP_L1_Control::update_loiter). On a
+circle of radius r, e outside it, that demands the lateral acceleration v^2/r + Kx e + Kv e', with the speed v along the
+circle, omega = 2 pi/NAVL1_PERIOD, Kx = omega^2 and Kv = 2 NAVL1_DAMPING omega. The aircraft turns otherwise than that,
+by a factor G: it slips, obeys late, and its slip settles slowly. So its circle is another one, in two ways:
 
-In wind its circle lies outside where the aircraft flies with the wind, farther than inside elsewhere: the middle of
-both is outside by a share of the offset at which Kx e is the acceleration that the circle needs there beyond V^2/r.
+- Its radius is wrong by a steady e. Of the demand the share k is turned, the turn ratio, and V^2/r is needed:
+  e = (1 - k)/k V^2/(r Kx). In wind the mean of the circle is outside by a share of the offset at which Kx e is the
+  acceleration that it needs downwind beyond V^2/r. The radius that is sent is smaller by e.
+- Its centre is wrong, in wind. v^2/r has the first harmonic 2 V w/r, at the angular rate W = V/r. It is turned by
+  G(iW), which leaves e = (1 - G) (2 V w/r)/(G (Kx + i W Kv) - W^2), a complex amplitude: its argument is the angle by
+  which the largest offset is before the point where the aircraft flies with the wind. An offset that is a first
+  harmonic is a displaced circle. The centre that is sent is displaced the other way.
 """
 
 from __future__ import annotations
 
+from cmath import exp, phase
 from dataclasses import replace
-from math import atan, degrees, hypot, pi, radians, tan
+from math import atan, atan2, cos, degrees, hypot, pi, radians, sin, tan
+from typing import NamedTuple
 
 from loiter.errors import LoiterError
 from loiter.guidance.estimation.vehicle import VehicleEstimates
@@ -25,15 +32,21 @@ from loiter.planning.hold import hold
 from loiter.planning.model import Aircraft, Orbit, wind_from_velocity
 from loiter.planning.sides import sign_of
 
-# ArduPlane's parameter for the period of its guidance, seconds.
-PERIOD = "NAVL1_PERIOD"
+# ArduPlane's parameters for the period of its guidance, seconds, and its damping, with the default of the latter.
+PERIOD, DAMPING, DEFAULT_DAMPING = "NAVL1_PERIOD", "NAVL1_DAMPING", 0.75
 
-# The largest share of the radius by which it is corrected, and how far below 1 a turn ratio is noise, as any above 1
-# is: upwind, where banks are small, an error of a degree is 15 %.
-LARGEST_SHARE, COORDINATED = 0.3, 0.18
+# The largest shares of the radius by which it is corrected and by which the centre is displaced, and how far below 1 a
+# turn ratio is noise, as any above 1 is: upwind, where banks are small, an error of a degree is 15 %.
+LARGEST_SHARE, LARGEST_DISPLACEMENT, COORDINATED = 0.3, 0.05, 0.18
 
-# That share, as ArduPlane's simulated aeroplane flies circles of 130 to 198 m in 7 m/s of wind.
-DOWNWIND_SHARE = 0.085
+# That share for the mean, and how an aeroplane turns whose turn ratio is not below that: at the first ratio once its
+# slip has settled, of which the second share settles over the third time, seconds. All as ArduPlane's simulated
+# aeroplane flies circles of 130 to 198 m in 7 m/s of wind.
+DOWNWIND_SHARE = 0.073
+SETTLED_RATIO, SETTLING_SHARE, SETTLING_S = 0.98, 0.15, 5.0
+
+# A smaller displacement of the centre, metres, is not worth a remark.
+LEAST_REMARKED_M = 0.5
 
 # The time, seconds, for which ArduPlane keeps the last bank: it suits the middle of that time.
 KEPT_S = 3.0
@@ -43,21 +56,51 @@ KEPT_S = 3.0
 RECOVERY_S, LARGEST_CORRECTION = 2.0, 0.3
 
 
-def sent_radius_m(
-    orbit: Orbit, altitude_m: float, parameters: dict[str, float], estimates: VehicleEstimates | None
-) -> float:
-    """The radius to send, metres, with which a vehicle flies that of the orbit at an altitude above mean sea level.
+class SentCircle(NamedTuple):
+    """The circle to send: its centre and its radius, metres; `displaced_m` is how far its centre is from ours."""
 
-    `parameters` are those of the vehicle, `estimates` those of the law, or None before it has flown.
+    east_m: float
+    north_m: float
+    radius_m: float
+    displaced_m: float = 0.0
+
+    def remark(self, orbit: Orbit) -> str:
+        """A sentence on a centre that differs from that of the orbit by more than a little; otherwise empty."""
+        if self.displaced_m < LEAST_REMARKED_M:
+            return ""
+        bearing_deg = degrees(atan2(self.east_m - orbit.east_m, self.north_m - orbit.north_m)) % 360.0
+        return (
+            f"The circle is sent with its centre {self.displaced_m:.1f} m towards {bearing_deg:.0f} degrees, "
+            f"for the wind, and a radius of {self.radius_m:g} m; it is flown as the one of {orbit.radius_m:g} m."
+        )
+
+
+def sent_circle(
+    orbit: Orbit, altitude_m: float, parameters: dict[str, float], estimates: VehicleEstimates | None
+) -> SentCircle:
+    """The circle to send, with which a vehicle flies the orbit at an altitude above mean sea level.
+
+    `parameters` are those of the vehicle, `estimates` those of the law, or None before it has flown. ArduPlane takes
+    whole metres of radius.
     """
     scaling, radius_m = loiter_scaling(parameters), orbit.radius_m
     if scaling is None:
-        return radius_m
+        return SentCircle(orbit.east_m, orbit.north_m, radius_m)
     period_s = parameters.get(PERIOD, 0.0)
-    if estimates is not None and period_s > 0.0:
-        error_m = _acceleration_deficit(radius_m, estimates) * (period_s / (2.0 * pi)) ** 2
-        radius_m -= clip(error_m, LARGEST_SHARE * radius_m)
-    return scaling.sent_whole_m(radius_m, altitude_m)
+    if estimates is None or period_s <= 0.0:
+        return SentCircle(orbit.east_m, orbit.north_m, scaling.sent_whole_m(radius_m, altitude_m))
+    omega = 2.0 * pi / period_s
+    error_m = _acceleration_deficit(radius_m, estimates) / (omega * omega)
+    sent_m = scaling.sent_whole_m(radius_m - clip(error_m, LARGEST_SHARE * radius_m), altitude_m)
+    offset_m = _first_harmonic(radius_m, omega, parameters.get(DAMPING, DEFAULT_DAMPING), estimates)
+    displaced_m = min(abs(offset_m), LARGEST_DISPLACEMENT * radius_m)
+    # The bearing from the centre at which the aircraft flies with the wind, and of the largest offset before it.
+    side = sign_of(orbit.turn)
+    downwind = atan2(estimates.wind_east_m_s, estimates.wind_north_m_s) - side * 0.5 * pi
+    outside = downwind - side * phase(offset_m)
+    return SentCircle(
+        orbit.east_m - displaced_m * sin(outside), orbit.north_m - displaced_m * cos(outside), sent_m, displaced_m
+    )
 
 
 def last_bank_deg(
@@ -107,3 +150,16 @@ def _acceleration_deficit(radius_m: float, estimates: VehicleEstimates) -> float
         return (1.0 - k) / k * V * V / radius_m
     downwind = V + hypot(estimates.wind_east_m_s, estimates.wind_north_m_s)
     return DOWNWIND_SHARE * (downwind * downwind - V * V) / radius_m
+
+
+def _first_harmonic(radius_m: float, omega: float, damping: float, estimates: VehicleEstimates) -> complex:
+    """The complex amplitude of the offset of ArduPlane's own circle in wind, metres, about the downwind point."""
+    V, wind = estimates.airspeed_m_s, hypot(estimates.wind_east_m_s, estimates.wind_north_m_s)
+    rate = 1j * V / radius_m
+    ratio, settling = estimates.turn_ratio, 0.0
+    if ratio >= 1.0 - COORDINATED:
+        ratio, settling = SETTLED_RATIO, SETTLING_SHARE
+    late = exp(-rate * (estimates.delay_s + estimates.roll.time_s))
+    turned = ratio * (1.0 - settling + settling / (1.0 + rate * SETTLING_S)) * late
+    stiffness = turned * (omega * omega + 2.0 * damping * omega * rate) + rate * rate
+    return (1.0 - turned) * 2.0 * V * wind / (radius_m * stiffness)
