@@ -18,6 +18,7 @@ from mavlink.flyer import (
     JOINING_S,
     KINDS,
     OFFBOARD,
+    ORBIT,
     PILOTS,
     RETURNS,
     STARTING_S,
@@ -501,6 +502,20 @@ class Windy:
             self.transmit_safe(mavlink.MAVLink_wind_cov_message(0, north, east, 0.0, *[0.1] * 5))
         else:
             super().stream(number, now)
+
+
+def test_in_wind_arduplane_is_handed_over_to_a_displaced_circle():
+    class Blown(Windy, GuidedPlane):
+        pass
+
+    vehicle = Blown()
+    vehicle.airframe.wind = (6.0, 0.0)
+    outcome = guided(vehicle)
+    (east_m, north_m), _, _ = vehicle.hold_circle
+    off_m = math.hypot(east_m - ORBIT.east_m, north_m - ORBIT.north_m)
+    assert off_m > 0.7
+    said = outcome.reports[-1].notices
+    assert any(f"its centre {off_m:.1f} m towards" in notice for notice in said), said
 
 
 @pytest.mark.parametrize("kind", KINDS)
