@@ -761,6 +761,23 @@ def test_a_wind_in_which_a_circle_cannot_be_held_is_a_problem_after_two_seconds(
     assert watched(windy(25.0, 9))[-1] == "in a wind of 25.0 m/s an aircraft of 24.0 m/s can hold no circle"
 
 
+@pytest.mark.parametrize(
+    ("radius_m", "ratio", "mean_m_s", "is_warned"),
+    [(150.0, 0.88, 22.6, True), (170.0, 0.88, 22.6, False), (150.0, 1.0, 22.6, False), (150.0, 0.94, 23.2, False)],
+)
+def test_a_circle_that_may_be_left_downwind_is_warned_of(radius_m, ratio, mean_m_s, is_warned):
+    """At 23.2 m/s in tight turns, in 12 m/s of wind; an aircraft that has not slipped is expected not to."""
+    watch, known = HoldabilityWatch(radius_m, 44.5), estimates(ratio, (12.0, 0.0), mean_m_s)
+    known.turn_airspeed_m_s = 23.2
+    warnings = []
+    for i in range(20):
+        assert not watch.problem(known, 0.5 * i)
+        warnings.append(watch.warning)
+    assert not any(warnings[:13])
+    assert warnings[-1].startswith("The circle may not be held downwind: in a wind of 12.0 m/s") == is_warned
+    assert bool(warnings[14]) == is_warned
+
+
 @pytest.mark.parametrize(("speed", "after_s"), [(14.5, None), (15.1, 8.0), (15.5, 4.0), (16.5, 2.0)])
 def test_a_circle_is_given_up_the_later_the_less_it_is_too_tight(speed, after_s):
     """By 2.5, 6, 8 and 14 %."""

@@ -477,7 +477,10 @@ class GuidedFlight:
         """Note whether the circle can be held in the wind, at the airspeed and with the turn ratio of the law."""
         if now >= self._next_wind:
             self._next_wind = now + WIND_S
+            warned = self._holdability.warning
             self._monitor.wind_problem = self._holdability.problem(self._law.estimates, now)
+            if self._holdability.warning and not warned:
+                self._notices.append(self._holdability.warning)
 
     def _measure(self) -> State:
         """The last measured state; the one before where the last messages give none."""
