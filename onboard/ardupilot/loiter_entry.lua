@@ -2,7 +2,7 @@
 --
 -- Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
 --
--- SHA-256 of the source: 12c3f1ea15f02deca2cc1f83f68178853d2f0e7823f495439aeaa00af7bf5a79
+-- SHA-256 of the source: 93e86ee9b8a455bdc01ede8784af6f4af4ff39730306de5e1e98c3a40620270f
 --
 -- When a switch asks for it, this script flies a plane onto the holding circle around its present target in least
 -- time, and then leaves the circle to ArduPlane: loiter_entry.md. It works by GUIDED_CHANGE_HEADING in GUIDED: the target

@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 1399b1d6010f41588bd81f27a48ba01f209c87a8903e3abbbd9cb6853043b667
+ * SHA-256 of the source: 7c2972a31e00214f0b9c1d39059b3df916860145b15787f9956854f60644f77c
  */
 #include "loiter_identification.h"
 
@@ -1404,11 +1404,15 @@ static inline void update_fits(Identification *memory, const IdentificationSetti
     const real rate = rate_at_bank(state.bank_deg, state.airspeed_m_s);
     /* The direction of flight is to the right of the heading by this angle. */
     wind = add_air_velocity(&wind, &state, lead.lead_s * slow.ratio * rate, known.heading_bias_deg, dt);
+    if (wind.known_s < memory->wind.known_s) {
+        /* The wind has changed: a lead that was fitted to the wind before may have been part of it. */
+        turns.lead = first_lead(declared.course_lead_s, NO_PAIRS);
+    }
     add_measured_bank(&memory->roll, state.bank_deg);
     airspeeds = update_airspeeds(settings, airspeeds, &state, dt);
     overshoot = update_overshoot(overshoot, settings->limit_deg, state.bank_deg, dt);
     const VehicleEstimates estimates = MAKE(VehicleEstimates){memory->roll.weights.estimate.roll,
-            memory->roll.weights.estimate.delay_s, slow.ratio, quick.ratio, lead.lead_s, wind.east_m_s,
+            memory->roll.weights.estimate.delay_s, slow.ratio, quick.ratio, turns.lead.lead_s, wind.east_m_s,
             wind.north_m_s, airspeeds.always.value, airspeeds.in_turns.value, overshoot.overshoot_deg,
             DECLARED_TURN_AIRSPEED_S / airspeeds.in_turns.known_s, wind.errors.heading * REAL(57.29577951308232),
             slow.bank_bias_deg};

@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 1399b1d6010f41588bd81f27a48ba01f209c87a8903e3abbbd9cb6853043b667
+ * SHA-256 of the source: 7c2972a31e00214f0b9c1d39059b3df916860145b15787f9956854f60644f77c
  */
 #ifndef LOITER_IDENTIFICATION_H
 #define LOITER_IDENTIFICATION_H

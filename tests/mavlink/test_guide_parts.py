@@ -37,7 +37,7 @@ from loiter.mavlink.connection.streams import TRIES, Streams, guide_streams, rat
 from loiter.mavlink.connection.telemetry import Telemetry
 from loiter.mavlink.guiding.hand_over import SentCircle, last_bank_deg, sent_circle
 from loiter.mavlink.guiding.holdability import HoldabilityWatch
-from loiter.mavlink.guiding.measurements import AirspeedSource, Measurements
+from loiter.mavlink.guiding.measurements import AirspeedLag, AirspeedSource, Measurements
 from loiter.mavlink.guiding.preparation import check_in_wind
 from loiter.mavlink.guiding.report import GuideReport, Stage
 from loiter.mavlink.guiding.settling import LASTING_S, PRESENT_S, MeanPosition, SteadyHoldDetector
@@ -664,6 +664,20 @@ def test_in_wind_the_circle_that_is_sent_is_flown_as_ours(turn, wind, ratio, set
     assert harmonic_m < 0.35 * whole_harmonic_m
     assert f"centre {sent.displaced_m:.1f} m towards" in sent.remark(orbit)
     assert sent_circle(orbit, 100.0, known, estimates(ratio, airspeed=23.0)).remark(orbit) == ""
+
+
+def test_a_filtered_airspeed_is_put_right_where_it_changes():
+    """It rises by 6 m/s^2 for a second and passes a filter of 0.3 s, at 10 Hz; after a gap it counts as it is."""
+    lag, filtered, most, uncorrected = AirspeedLag(0.3), 20.0, 0.0, 0.0
+    for i in range(60):
+        true = 20.0 + 6.0 * min(max(0.1 * i - 2.0, 0.0), 1.0)
+        filtered += (1.0 - math.exp(-0.1 / 0.3)) * (true - filtered)
+        lag.update(filtered, 0.1 * i)
+        most, uncorrected = max(most, abs(filtered + lag.lacks_m_s - true)), max(uncorrected, true - filtered)
+    assert uncorrected > 1.4
+    assert most < 0.65
+    lag.update(30.0, 9.0)
+    assert lag.lacks_m_s == 0.0
 
 
 def test_the_damping_of_arduplane_counts():

@@ -21,7 +21,7 @@ from loiter.guidance.estimation.roll_response import (
     roll_settings,
     start_models,
 )
-from loiter.guidance.estimation.turn_fits import Turns, add_turn, first_lead, first_turns, restart_turns
+from loiter.guidance.estimation.turn_fits import NO_PAIRS, Turns, add_turn, first_lead, first_turns, restart_turns
 from loiter.guidance.estimation.vehicle import VehicleEstimates, VehicleModel, remove_bias
 from loiter.guidance.estimation.wind_fit import WindFit, add_air_velocity, first_wind, is_changing
 from loiter.guidance.protocol import State
@@ -187,6 +187,9 @@ def update_fits(
     rate = rate_at_bank(state.bank_deg, state.airspeed_m_s)
     # The direction of flight is to the right of the heading by this angle.
     wind = add_air_velocity(wind, state, lead.lead_s * slow.ratio * rate, known.heading_bias_deg, dt)
+    if wind.known_s < memory.wind.known_s:
+        # The wind has changed: a lead that was fitted to the wind before may have been part of it.
+        turns = turns._replace(lead=first_lead(declared.course_lead_s, NO_PAIRS))
     memory = memory._replace(roll=add_measured_bank(memory.roll, state.bank_deg))
     airspeeds = update_airspeeds(settings, airspeeds, state, dt)
     overshoot = update_overshoot(overshoot, settings.limit_deg, state.bank_deg, dt)
@@ -195,7 +198,7 @@ def update_fits(
         delay_s=memory.roll.weights.estimate.delay_s,
         turn_ratio=slow.ratio,
         quick_turn_ratio=quick.ratio,
-        course_lead_s=lead.lead_s,
+        course_lead_s=turns.lead.lead_s,
         wind_east_m_s=wind.east_m_s,
         wind_north_m_s=wind.north_m_s,
         airspeed_m_s=airspeeds.always.value,

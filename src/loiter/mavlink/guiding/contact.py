@@ -22,7 +22,7 @@ from loiter.mavlink.connection.round_trip import RoundTrip
 from loiter.mavlink.connection.status_text import StatusTexts
 from loiter.mavlink.connection.streams import Streams, guide_streams, rates_to_try_hz
 from loiter.mavlink.connection.telemetry import Telemetry, WindSource
-from loiter.mavlink.guiding.measurements import LEAST_SHARE, AirspeedSource, Measurements
+from loiter.mavlink.guiding.measurements import AIRSPEED_LAG_S, LEAST_SHARE, AirspeedSource, Measurements
 from loiter.mavlink.guiding.monitor import Monitor
 from loiter.mavlink.guiding.own_target import OwnTarget
 from loiter.planning.compass import heading_vector
@@ -53,7 +53,8 @@ class Contact:
         self.autopilot = Autopilot(vehicle.autopilot)
         self.began = monotonic()
         self.telemetry, self.texts = Telemetry(self.began), StatusTexts()
-        self.measurements = Measurements(self.telemetry, frame)
+        lag_s = AIRSPEED_LAG_S if self.autopilot == Autopilot.ARDUPILOT else 0.0
+        self.measurements = Measurements(self.telemetry, frame, lag_s)
         self.monitor = Monitor(vehicle, self.telemetry, self.measurements)
         self.own_target, self.sticks = OwnTarget(frame), Sticks()
         self.streams = Streams(guide_streams(self.autopilot), self.began, rates_to_try_hz(connection, BAUD))

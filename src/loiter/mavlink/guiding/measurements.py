@@ -2,13 +2,13 @@
 
 A state has the time stamp of the newer of attitude and position, by the clock of the autopilot, plus the time that it
 was under way longer than the fastest message: so its age is always the same. Both are extrapolated to that time.
-Indicated airspeed becomes true airspeed by the density of standard air at the altitude.
+Indicated airspeed becomes true airspeed by the density of standard air at the altitude; ArduPlane's is reported late.
 """
 
 from __future__ import annotations
 
 from enum import StrEnum
-from math import atan2, cos, degrees, hypot, inf, isfinite, nan, sin, tan
+from math import atan2, cos, degrees, exp, hypot, inf, isfinite, nan, sin, tan
 from typing import Any, NamedTuple
 
 from loiter.geo import LocalFrame
@@ -25,6 +25,9 @@ LARGEST_SKEW_S = 0.5
 
 # The share of the declared airspeed below which a measured one is wrong.
 LEAST_SHARE = 0.4
+
+# The time constant of the filter of ArduPlane's airspeed, seconds, and the gap after which a new beginning is made.
+AIRSPEED_LAG_S, LONGEST_GAP_S = 0.3, 1.0
 
 # A position that differs from the dead reckoned one by more than this, metres, plus this share of the distance flown
 # since, is a jump: no aircraft flies it.
@@ -54,25 +57,46 @@ class LocalPlace(NamedTuple):
     convergence_deg: float
 
 
+class AirspeedLag:
+    """What a filtered airspeed lacks: by the filter once more its present rate of change, times the time constant."""
+
+    def __init__(self, lag_s: float) -> None:
+        self.lacks_m_s = 0.0
+        self._lag_s = lag_s
+        self._smooth_m_s, self._at = nan, -inf
+
+    def update(self, airspeed_m_s: float, now: float) -> None:
+        """Process an airspeed that has arrived."""
+        gap_s, self._at = now - self._at, now
+        if not gap_s < LONGEST_GAP_S or not isfinite(self._smooth_m_s) or self._lag_s <= 0.0:
+            self._smooth_m_s = airspeed_m_s
+        else:
+            self._smooth_m_s += (1.0 - exp(-gap_s / self._lag_s)) * (airspeed_m_s - self._smooth_m_s)
+        self.lacks_m_s = airspeed_m_s - self._smooth_m_s
+
+
 class Measurements:
     """The state of a vehicle in the local metres of a frame, from its telemetry, and how late and how good it is.
 
     `jump_m` is the largest jump of the position, metres, 0 without one. `declared_m_s` is the true airspeed that counts
-    where none is measured.
+    where none is measured. `airspeed_lag_s` is the time constant with which measured airspeeds are filtered.
     """
 
-    def __init__(self, telemetry: Telemetry, frame: LocalFrame) -> None:
+    def __init__(self, telemetry: Telemetry, frame: LocalFrame, airspeed_lag_s: float = 0.0) -> None:
         self._telemetry, self._frame = telemetry, frame
         self._position: Any = None
         self._place = LocalPlace(nan, nan, nan)
         self._unused: set[str] = set()
         self._fastest, self._fastest_at = inf, 0.0
+        self._lag = AirspeedLag(airspeed_lag_s)
         self.jump_m = 0.0
         self.declared_m_s = nan
 
     def update(self, message: Any, now: float) -> None:
         """Process a message that the telemetry has taken."""
         kind = message.get_type()
+        if kind == "VFR_HUD" and self._telemetry.last(kind) is message:
+            self._lag.update(float(message.airspeed), now)
         if kind not in STATE_KINDS or self._telemetry.last(kind) is not message:
             return
         if kind == "GLOBAL_POSITION_INT":
@@ -111,7 +135,7 @@ class Measurements:
     def airspeed(self, wind: Wind | None, now: float) -> tuple[float, AirspeedSource]:
         """The true airspeed, metres per second, and its source; `wind` is the one that the vehicle reports, if any."""
         eas2tas = eas2tas_squared(self._telemetry.fix().altitude_m) ** 0.5
-        measured = self._telemetry.airspeed_m_s(now) * eas2tas
+        measured = (self._telemetry.airspeed_m_s(now) + self._lag.lacks_m_s) * eas2tas
         # Before an airspeed is declared, which is nan then, every measured one counts.
         if isfinite(measured) and not measured < LEAST_SHARE * self.declared_m_s:
             return measured, AirspeedSource.MEASURED
