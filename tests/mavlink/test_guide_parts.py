@@ -776,20 +776,32 @@ def test_a_wind_in_which_a_circle_cannot_be_held_is_a_problem_after_two_seconds(
 
 
 @pytest.mark.parametrize(
-    ("radius_m", "ratio", "mean_m_s", "is_warned"),
-    [(150.0, 0.88, 22.6, True), (170.0, 0.88, 22.6, False), (150.0, 1.0, 22.6, False), (150.0, 0.94, 23.2, False)],
+    ("radius_m", "ratio", "mean_m_s", "is_warned", "is_given_up"),
+    [
+        (140.0, 0.84, 22.6, True, True),
+        (145.0, 0.84, 22.6, True, False),
+        (150.0, 0.84, 22.6, False, False),
+        (130.5, 1.0, 22.6, True, False),
+        (150.0, 1.0, 22.6, False, False),
+    ],
 )
-def test_a_circle_that_may_be_left_downwind_is_warned_of(radius_m, ratio, mean_m_s, is_warned):
-    """At 23.2 m/s in tight turns, in 12 m/s of wind; an aircraft that has not slipped is expected not to."""
-    watch, known = HoldabilityWatch(radius_m, 44.5), estimates(ratio, (12.0, 0.0), mean_m_s)
-    known.turn_airspeed_m_s = 23.2
-    warnings = []
-    for i in range(20):
-        assert not watch.problem(known, 0.5 * i)
+def test_a_circle_that_may_be_left_downwind_is_warned_of_and_given_up(
+    radius_m, ratio, mean_m_s, is_warned, is_given_up
+):
+    """At 23.2 m/s in tight turns, in 12 m/s of wind, in which a step of the wind has raised the ratio to 1."""
+    watch = HoldabilityWatch(radius_m, 44.5)
+    problems, warnings = [], []
+    for i in range(40):
+        known = estimates(ratio, (0.0, 0.0), mean_m_s) if i < 16 else estimates(1.0, (12.0, 0.0), mean_m_s)
+        known.turn_airspeed_m_s = 23.2
+        problems.append(watch.problem(known, 0.5 * i))
         warnings.append(watch.warning)
-    assert not any(warnings[:13])
+    assert not any(warnings[:19])
     assert warnings[-1].startswith("The circle may not be held downwind: in a wind of 12.0 m/s") == is_warned
-    assert bool(warnings[14]) == is_warned
+    assert bool(warnings[20]) == is_warned
+    assert not any(problems[:21])
+    assert bool(problems[22]) == is_given_up
+    assert problems[22].startswith("in a wind of 12.0 m/s, at 23.8 m/s") == is_given_up
 
 
 @pytest.mark.parametrize(("speed", "after_s"), [(14.5, None), (15.1, 8.0), (15.5, 4.0), (16.5, 2.0)])

@@ -28,11 +28,15 @@ FIRST_S = 5.0
 # lower by the second for a wind as fast as the aircraft. A ratio above 1 makes no circle possible.
 LEAST_RATIO, UNSETTLED = 0.9, 0.2
 
-# What is not known before the aircraft is downwind: that it slips more there, where its bank grows, than it has so far,
-# by this share, and that its airspeed exceeds that of tight turns by what the latter exceeds its mean. Where the circle
-# may not be held by that forecast for so many seconds, a warning says so. The aeroplane of ArduPlane's simulator turned
-# at 0.83 downwind and at 0.88 before, and flew at 25 m/s instead of 23.4.
-MORE_SLIP, WARNED_S = 0.4, 2.0
+# What is not known before the aircraft is downwind is forecast: there its bank grows, and it slips as much as it has at
+# its worst, within the bounds above, which is forgotten over this time, seconds; its airspeed exceeds that of tight
+# turns by what the latter exceeds its mean.
+SLIP_MEMORY_S = 120.0
+
+# A warning is given where the tightest circle by that forecast has been wider than the circle for the first time,
+# seconds. The circle is given up where it has been wider by this share for the second time, if the aircraft slips: its
+# least ratio is below the last.
+WARNED_S, FORECAST_S, TOO_TIGHT, SLIPS = 2.0, 3.0, 0.04, 0.93
 
 
 class Tightest(NamedTuple):
@@ -81,7 +85,8 @@ class HoldabilityWatch:
     def __init__(self, radius_m: float, limit_deg: float) -> None:
         self._radius_m, self._limit_deg = radius_m, limit_deg
         self._began = self._last = nan
-        self._sum_s = self._forecast_s = 0.0
+        self._sum_s = self._warned_s = self._refused_s = 0.0
+        self._least_ratio = 1.0
         self.warning = ""
 
     def problem(self, estimates: VehicleEstimates, now: float) -> str:
@@ -94,16 +99,21 @@ class HoldabilityWatch:
         wind, V = (estimates.wind_east_m_s, estimates.wind_north_m_s), estimates.turn_airspeed_m_s
         k = min(max(estimates.turn_ratio, LEAST_RATIO - UNSETTLED * min(hypot(*wind) / V, 1.0)), 1.0)
         tightest = Tightest(*wind, V, k, self._limit_deg)
-        self._forecast(tightest, estimates.airspeed_m_s, dt)
+        downwind = self._forecast(tightest, estimates.airspeed_m_s, dt)
         excess = LARGEST if hypot(*wind) >= V else min(tightest.excess(self._radius_m), LARGEST)
         self._sum_s = max(self._sum_s + (excess - TOLERATED) * dt, 0.0)
-        return tightest.problem(self._radius_m) if excess > TOLERATED and self._sum_s >= GIVEN_UP_S else ""
+        if excess > TOLERATED and self._sum_s >= GIVEN_UP_S:
+            return tightest.problem(self._radius_m)
+        return downwind.problem(self._radius_m) if self._refused_s >= FORECAST_S else ""
 
-    def _forecast(self, tightest: Tightest, airspeed_m_s: float, dt: float) -> None:
-        """Update the warning; `airspeed_m_s` is the mean airspeed."""
+    def _forecast(self, tightest: Tightest, airspeed_m_s: float, dt: float) -> Tightest:
+        """The forecast for where the aircraft is downwind; updates the warning. `airspeed_m_s` is the mean airspeed."""
         k, V = tightest.turn_ratio, tightest.airspeed_m_s
-        downwind = tightest._replace(turn_ratio=k - MORE_SLIP * (1.0 - k), airspeed_m_s=V + max(V - airspeed_m_s, 0.0))
-        may_leave = tightest.wind_m_s < V and downwind.radius_m > self._radius_m
-        self._forecast_s = self._forecast_s + dt if may_leave else 0.0
-        if self._forecast_s >= WARNED_S:
+        self._least_ratio = min(k, self._least_ratio + (k - self._least_ratio) * dt / SLIP_MEMORY_S)
+        downwind = tightest._replace(turn_ratio=self._least_ratio, airspeed_m_s=V + max(V - airspeed_m_s, 0.0))
+        excess = downwind.excess(self._radius_m) if tightest.wind_m_s < V else 0.0
+        self._warned_s = self._warned_s + dt if excess > 0.0 else 0.0
+        self._refused_s = self._refused_s + dt if excess > TOO_TIGHT and self._least_ratio < SLIPS else 0.0
+        if self._warned_s >= WARNED_S:
             self.warning = f"The circle may not be held downwind: {downwind.problem(self._radius_m)}."
+        return downwind
