@@ -571,6 +571,9 @@ def test_the_turn_ratio_is_measured_on_the_circle(turn):
         state = on_circle(turn * degrees(18.0 / 80.0 * 0.1 * i), time_s=0.1 * i, turn=turn)
         steady.update(state._replace(bank_deg=bank_deg + 5.0 * math.sin(2.0 * i)))
     assert steady.turn_ratio(LASTING_S) == pytest.approx(0.8, rel=0.02)
+    for i in range(150, 170):
+        steady.update(on_circle(turn * 1.29 * i, time_s=0.1 * i, turn=turn)._replace(airspeed_m_s=20.0))
+    assert steady.airspeed_m_s == pytest.approx(19.7, abs=0.1)
 
 
 def test_the_present_turn_ratio_follows_a_slip_that_settles():

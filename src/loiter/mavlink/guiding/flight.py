@@ -552,9 +552,15 @@ class GuidedFlight:
         return HOLD if self._contact.flies_px4 else GUIDED
 
     def _measured_estimates(self, time_s: float) -> VehicleEstimates:
-        """The estimates of the law, with the ratio of turn rates measured on the circle over a time if it was held."""
+        """The estimates of the law, with what is measured on the circle if it was held.
+
+        That is the ratio of turn rates over a time, and the present airspeed: that of the law is an average over the
+        flight, in which a slow start lasts.
+        """
         estimates, ratio = self._law.estimates, self._steady.turn_ratio(time_s)
-        return estimates if ratio is None else estimates._replace(turn_ratio=bounded_turn_ratio(ratio))
+        if ratio is None:
+            return estimates
+        return estimates._replace(turn_ratio=bounded_turn_ratio(ratio), airspeed_m_s=self._steady.airspeed_m_s)
 
     def _hold_command(self) -> PendingCommand:
         """The command to hold the circle, with the circle that the vehicle flies as the orbit."""

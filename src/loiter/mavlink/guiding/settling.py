@@ -62,8 +62,9 @@ class SteadyHoldDetector:
         self._near_deg = 0.0
         # The mean bank, and the time since when the bank has been near it.
         self._bank_deg = self._quiet_since_s = nan
-        # The mean position relative to the circle.
+        # The mean position relative to the circle, and the mean airspeed.
         self.mean = MeanPosition(nan, nan)
+        self.airspeed_m_s = nan
         self._leave()
 
     def _leave(self) -> None:
@@ -112,6 +113,7 @@ class SteadyHoldDetector:
         if last is None:
             self.mean = position
             self._bank_deg, self._quiet_since_s = state.bank_deg, state.time_s
+            self.airspeed_m_s = state.airspeed_m_s
             return
         dt = max(state.time_s - last.time_s, 0.0)
         share = 1.0 - exp(-dt / MEAN_S)
@@ -121,6 +123,7 @@ class SteadyHoldDetector:
             error_deg + share * (position.course_error_deg - error_deg),
         )
         self._bank_deg += share * (state.bank_deg - self._bank_deg)
+        self.airspeed_m_s += share * (state.airspeed_m_s - self.airspeed_m_s)
         if abs(state.bank_deg - self._bank_deg) > QUIET_BANK_DEG:
             self._quiet_since_s = state.time_s
         turned_deg = remainder(state.heading_deg - last.heading_deg, 360.0)
