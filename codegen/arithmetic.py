@@ -88,7 +88,7 @@ CONSTANTS: dict[tuple[str, str], Callable[[Arithmetic], float]] = {
     ("extremals", "SMALLEST_SCALE"): lambda a: 2.0 ** -(300 * a.exponents // 1022),
     ("fits", "SHORT"): lambda a: 1e-4 * 2.0 ** ((53 - a.digits) / 4),
     ("hold", "NEGLIGIBLE_WIND"): lambda a: 2.0 ** -(400 * a.exponents // 1022),
-    ("law_step", "ROUNDING_S"): lambda a: 1e-9 * 2.0 ** ((53 - a.digits) * 17 / 29),
+    ("plan", "ROUNDING_S"): lambda a: 1e-9 * 2.0 ** ((53 - a.digits) * 17 / 29),
     ("minimum", "AT_CORNER"): lambda a: 1e-12 * 2.0 ** (53 - a.digits),
     ("minimum", "BESIDE"): lambda a: 1e-7 * 2.0 ** ((53 - a.digits) / 2),
     ("minimum", "WORTH"): lambda a: 2.0**a.digits,
@@ -96,7 +96,7 @@ CONSTANTS: dict[tuple[str, str], Callable[[Arithmetic], float]] = {
     ("moving_target", "NO_STEP"): lambda a: 2.0 ** -(a.digits + 5),
     ("rounding", "REACH"): lambda a: 2.0 ** (a.digits - 1),
     ("rounding", "ROUNDING"): lambda a: 64.0 * 2.0 ** -(a.digits - 1),
-    ("turning", "SMALLEST_TURN"): lambda a: 2.0 ** -(a.digits + 1),
+    ("vehicle", "SMALLEST_TURN"): lambda a: 2.0 ** -(a.digits + 1),
     ("wind_search", "LAST"): lambda a: a.digits - 9,
     ("wind_search", "NARROWED"): lambda a: bits(a) // 6 - 2,
 }

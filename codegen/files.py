@@ -11,7 +11,7 @@ from codegen.unit import ROOT, Unit
 from loiter.arrays import partition  # noqa: F401
 from loiter.guidance.entry import law_step
 from loiter.guidance.estimation import identification_step
-from loiter.guidance.estimation.vehicle import fly_as_declared
+from loiter.guidance.vehicle import fly_as_declared
 from loiter.kernel import adjoint, entry, motion, rounding, words
 from loiter.kernel.still_air import extremals, switching_curves, synthesis, value_gradient
 from loiter.kernel.wind import held, hold, paths, slots, way_out, wind_search

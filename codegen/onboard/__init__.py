@@ -14,14 +14,14 @@ from codegen.kinds import Kind, NotTranslated, kind_of_type
 from codegen.statements import comment, wrapped
 from codegen.unit import RING as VALUE_RING
 from codegen.unit import ROOT, Unit, digest
-from loiter.guidance.entry import entry_planner, law_step
-from loiter.guidance.entry.law_step import Memory, Settings
-from loiter.guidance.estimation import bank_history, identification_step
+from loiter.guidance.entry import entry_planner, law_step, limits, plan, tracking
+from loiter.guidance.entry.law_step import Memory
+from loiter.guidance.entry.limits import Settings
+from loiter.guidance.estimation import identification_step, observer
 from loiter.guidance.estimation.identification_step import Identification, IdentificationSettings
 from loiter.guidance.estimation.turn_fits import EXPECTED_TURN_RATIO
-from loiter.guidance.estimation.vehicle import VehicleModel, fly_as_declared
 from loiter.guidance.estimation.wind_fit import DECLARED_WIND_S
-from loiter.guidance.vehicle import rolling
+from loiter.guidance.vehicle import Roll, VehicleModel, fly_as_declared
 from loiter.kernel import motion
 from loiter.kernel.rounding import rounded_radius
 from loiter.kernel.statuses import Status
@@ -68,14 +68,14 @@ ROOTS = (
     model.radius_at_bank,
     fly_as_declared,
     law_step.first_memory,
-    law_step.plan_by_clock,
+    plan.plan_by_clock,
     law_step.advance,
 )
 
 # Functions that are not inlined, so that their memory on the stack does not add up.
 APART = (
     law_step.prepare,
-    law_step.take_entry,
+    plan.take_entry,
     law_step.conclude,
     entry_planner.begin_in_air,
     identification_step.begin_identification,
@@ -222,7 +222,7 @@ def law_unit() -> tuple[OnboardUnit, dict[str, str]]:
         kinds_of(wind_search.WindSearch),
         kinds_of(wind_search.WindSearch, Settings, VehicleModel, Memory),
     )
-    unit, roll = OnboardUnit("loiter.c", ARITHMETIC, ROOTS, exported), rolling.Roll()
+    unit, roll = OnboardUnit("loiter.c", ARITHMETIC, ROOTS, exported), Roll()
     rings = " ".join(f"loiter_{ring.name} {ring.name};" for ring in unit.rings)
     of_law = [line for kind in exported if kind not in search for line in declared(kind, True)]
     return unit, {
@@ -236,11 +236,11 @@ def law_unit() -> tuple[OnboardUnit, dict[str, str]]:
         "ROLL_TIME": unit.literal(roll.time_s),
         "ROLL_RATE": unit.literal(roll.rate_deg_s),
         "DELAY": unit.literal(law_step.DELAY_S),
-        "RESERVE": unit.literal(law_step.RESERVE),
+        "RESERVE": unit.literal(limits.RESERVE),
         "SMOOTHING": unit.literal(law_step.SMOOTHING_S),
-        "GAIN": unit.literal(law_step.GAIN),
+        "GAIN": unit.literal(tracking.GAIN),
         "LONGEST_STEP": f"{law_step.LONGEST_STEP_S:.0f}",
-        "COVERED": unit.literal(bank_history.COVERED_S),
+        "COVERED": unit.literal(observer.COVERED_S),
     }
 
 
@@ -252,7 +252,7 @@ def identification_unit(of_law: list[Kind]) -> tuple[OnboardUnit, dict[str, str]
         **unit.parts(),
         "STRUCTURES": "\n".join(line for kind in exported if kind not in of_law for line in declared(kind, False)),
         "TURN_RATIO": unit.literal(EXPECTED_TURN_RATIO),
-        "NEGLIGIBLE_WIND": unit.literal(law_step.NEGLIGIBLE_WIND),
+        "NEGLIGIBLE_WIND": unit.literal(limits.NEGLIGIBLE_WIND),
         "WIND_KNOWN": unit.literal(DECLARED_WIND_S),
     }
 

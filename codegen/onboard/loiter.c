@@ -196,9 +196,9 @@ static void follow_clock(loiter_law *law, uint32_t time_us) {
     clock->latest_s -= past_s;
     sensing->observer.estimate.time_s -= past_s;
     sensing->present.time_s -= past_s;
-    plan_by_clock(&law->memory.plan, -past_s);
-    law->memory.search.state.time_s -= past_s;
-    law->memory.response.state.time_s -= past_s;
+    plan_by_clock(&law->memory.planning.plan, -past_s);
+    law->memory.planning.search.state.time_s -= past_s;
+    law->memory.planning.response.state.time_s -= past_s;
     BankEntry *entries = law->rings.BankEntry_ring_128.at;
     const BankEntry last = entries[ENTRIES - 1];
     for (int i = 0; i < ENTRIES; i++) {
@@ -219,7 +219,7 @@ static void step_with(loiter_law *law, const loiter_measurement *m, real dt_s, l
     const real time_s = (real)(int32_t)(m->time_us - law->begin_us) * REAL(1e-6);
     const State state = {time_s,      m->east_m,           m->north_m,           m->heading_deg,
                          m->bank_deg, m->velocity_east_m_s, m->velocity_north_m_s, m->airspeed_m_s};
-    law_step_advance(&law->rings, &law->memory, &law->settings, &law->vehicle, &state, dt_s);
+    advance(&law->rings, &law->memory, &law->settings, &law->vehicle, &state, dt_s);
     const LawCommand *const given = &law->memory.command;
     command->turn_rate_deg_s = given->turn_rate_deg_s;
     command->bank_deg = given->bank_deg;

@@ -405,7 +405,7 @@ end
 
 -- Begin to improve the known point of joining, so that it is the best one when the switch is moved.
 local function expect(now)
-    local limits = flight.memory.sensing.limits
+    local limits = flight.memory.limits
     if limits.wind_east_m_s == 0.0 and limits.wind_north_m_s == 0.0 then
         last_problem = nil
         return
@@ -551,7 +551,7 @@ end
 
 -- Whether a search of the law goes on.
 local function is_searching()
-    return flight and flight.is_flown and flight.memory.search.aim ~= @NOTHING@
+    return flight and flight.is_flown and flight.memory.planning.search.aim ~= @NOTHING@
 end
 
 -- Whether another callback for a search follows before the next step, which is due in so many milliseconds.
@@ -563,7 +563,8 @@ end
 -- A callback for a search.
 local function continue_search()
     if is_searching() then
-        flight.memory = law.continue_search(flight.memory, flight.settings, 1)
+        local memory = flight.memory
+        memory.planning = law.continue_search(memory.planning, flight.settings, memory.limits, memory.sensing, 1)
     elseif flight and last_problem then
         improve_join(last_problem)
     end

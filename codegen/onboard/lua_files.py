@@ -10,9 +10,9 @@ from codegen.arithmetic import Arithmetic
 from codegen.lua import LUA_32BITS, Chunk, note
 from codegen.unit import ROOT, digest
 from loiter.compiled import solver
-from loiter.guidance.entry import entry_planner, join_tracking, law_step
-from loiter.guidance.estimation import bank_history, identification_step, turn_fits
-from loiter.guidance.estimation.vehicle import fly_as_declared
+from loiter.guidance.entry import entry_planner, join_tracking, law_step, limits, plan, tracking
+from loiter.guidance.estimation import identification_step, observer, turn_fits
+from loiter.guidance.vehicle import fly_as_declared
 from loiter.kernel.statuses import Status
 from loiter.kernel.still_air import synthesis
 from loiter.kernel.wind import wind_search
@@ -28,7 +28,7 @@ APPLET = "loiter_entry.lua"
 ROOTS: tuple[Any, ...] = (
     law_step.first_memory,
     law_step.prepare,
-    law_step.continue_search,
+    plan.continue_search,
     law_step.conclude,
     fly_as_declared,
     turn_fits.first_turns,
@@ -76,17 +76,17 @@ def applet(arithmetic: Arithmetic) -> str:
         "NO_DATA": law_step.NO_DATA,
         "HOLD": law_step.HOLD,
         "NOTHING": entry_planner.NOTHING,
-        "FIRST_TURN": law_step.FIRST_TURN,
+        "FIRST_TURN": plan.FIRST_TURN,
         "DOWNWIND_SHARE": hand_over.DOWNWIND_SHARE,
         "LARGEST_SHARE": hand_over.LARGEST_SHARE,
-        "GAIN": law_step.GAIN,
-        "RESERVE": law_step.RESERVE,
+        "GAIN": tracking.GAIN,
+        "RESERVE": limits.RESERVE,
         "SMOOTHING": law_step.SMOOTHING_S,
-        "NEGLIGIBLE_WIND": law_step.NEGLIGIBLE_WIND,
+        "NEGLIGIBLE_WIND": limits.NEGLIGIBLE_WIND,
         "EXPECTED_RATIO": turn_fits.EXPECTED_TURN_RATIO,
         "DECLARED_AIRSPEED": identification_step.DECLARED_AIRSPEED_S,
         "DECLARED_TURN_AIRSPEED": identification_step.DECLARED_TURN_AIRSPEED_S,
-        "COVERED": bank_history.COVERED_S,
+        "COVERED": observer.COVERED_S,
     }
     text = Path(__file__).with_name(APPLET).read_text("utf-8")
     for key, value in parts.items():

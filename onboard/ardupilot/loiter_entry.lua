@@ -2,7 +2,7 @@
 --
 -- Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
 --
--- SHA-256 of the source: 93e86ee9b8a455bdc01ede8784af6f4af4ff39730306de5e1e98c3a40620270f
+-- SHA-256 of the source: c0191381d2772563f8cbeb4555494c30966c25ef201d01b20d75ce857d0625b9
 --
 -- When a switch asks for it, this script flies a plane onto the holding circle around its present target in least
 -- time, and then leaves the circle to ArduPlane: loiter_entry.md. It works by GUIDED_CHANGE_HEADING in GUIDED: the target
@@ -175,6 +175,23 @@ local function appended(ring, last)
     changed[#ring] = last
     return changed
 end
+law.FIRST_CLOCK = {time_s = -huge, since_s = 0.0, gap_s = huge, jump_s = 0.0, first_s = (0.0 / 0.0), latest_s = (0.0 / 0.0)}
+
+-- What is assumed until then, as if it had been measured for the last time, seconds: gusts of about 10 % of the
+-- airspeed, as the mean square change of each component in a second, and noise of 0.4 m/s; (m/s)^2.
+-- FIRST_NOISE = 0.16
+
+-- How fast the velocity of the air changes is measured from its differences over this time, seconds, averaged over
+-- the second time.
+-- GUST_LAG_S = 1.0
+-- FIRST_GUST = 0.6
+-- ASSUMED_S = 1.0
+law.CALM_ALONG = {near_square = 0.0, far_square = 0.0, known_s = 3.0}
+
+-- The ring of the last measurements. Where it would not cover the lag, those that follow each other sooner than
+-- this, seconds, are left out.
+-- SAMPLES = 64
+law.NO_ESTIMATE = {time_s = -huge, pose = {x = 0.0, y = 0.0, c = 1.0, s = 0.0}, airspeed_m_s = 0.0, turn_rate = 0.0, bank_deg = 0.0, air_east_m_s = 0.0, air_north_m_s = 0.0, turning = {ratio = 1.0, lead_s = 0.0}}
 law.NO_LIMITS = {revision = -1, wind_differs = false, wind_east_m_s = 0.0, wind_north_m_s = 0.0, roll = {time_s = 0.0, rate_deg_s = 0.0, lag_s = 0.0}, limit_deg = 0.0, turns = {airspeed_m_s = 1.0, tightest_m = 1.0, planned_m = 1.0}, hold_deg = 0.0, hold_half_deg = 0, planned_half_deg = 0, lead_s = 0.0, reversal_s2 = 0.0, reversal_m = 0.0, lag_s = 0.0}
 
 -- The wind is planned as estimated, not as declared, where they differ by the first share of the airspeed, until
@@ -230,23 +247,6 @@ law.LAGUERRE_WEIGHTS = {0.711093009929173, 0.27851773356924087, 0.01038925650158
 
 -- The gain of course corrections is reduced by this share of the delay: a part of it is not predicted exactly.
 -- DELAY_SHARE = 1.0
-
--- What is assumed until then, as if it had been measured for the last time, seconds: gusts of about 10 % of the
--- airspeed, as the mean square change of each component in a second, and noise of 0.4 m/s; (m/s)^2.
--- FIRST_NOISE = 0.16
-
--- How fast the velocity of the air changes is measured from its differences over this time, seconds, averaged over
--- the second time.
--- GUST_LAG_S = 1.0
--- FIRST_GUST = 0.6
--- ASSUMED_S = 1.0
-law.CALM_ALONG = {near_square = 0.0, far_square = 0.0, known_s = 3.0}
-
--- The ring of the last measurements. Where it would not cover the lag, those that follow each other sooner than
--- this, seconds, are left out.
--- SAMPLES = 64
-law.NO_ESTIMATE = {time_s = -huge, pose = {x = 0.0, y = 0.0, c = 1.0, s = 0.0}, airspeed_m_s = 0.0, turn_rate = 0.0, bank_deg = 0.0, air_east_m_s = 0.0, air_north_m_s = 0.0, turning = {ratio = 1.0, lead_s = 0.0}}
-law.FIRST_CLOCK = {time_s = -huge, since_s = 0.0, gap_s = huge, jump_s = 0.0, first_s = (0.0 / 0.0), latest_s = (0.0 / 0.0)}
 law.NO_PLAN = {route = {side = 0, current = {u = -2, x = 0.0, y = 0.0, c = 1.0, s = 0.0, end_x = 0.0, end_y = 0.0, time_s = 0.0, radius_m = 1.0}, second = {u = -2, x = 0.0, y = 0.0, c = 1.0, s = 0.0, end_x = 0.0, end_y = 0.0, time_s = 0.0, radius_m = 1.0}, third = {u = -2, x = 0.0, y = 0.0, c = 1.0, s = 0.0, end_x = 0.0, end_y = 0.0, time_s = 0.0, radius_m = 1.0}, more_s = 0.0, last_u = -2, start_s = 0.0, turn_radius_m = 1.0, speed_m_s = 1.0, wind_east_m_s = 0.0, wind_north_m_s = 0.0}, remaining_s = 0.0, join_s = huge, planned_join_s = huge, searched_s = -huge}
 
 -- The control of a piece that the word does not have.
@@ -268,9 +268,8 @@ law.NO_ENTRY_SEARCH = {aim = 0, state = {time_s = 0.0, x = 0.0, y = 0.0, vx = 0.
 -- LARGEST_VALUE = 1000000000.0
 -- LEAST_AIRSPEED_M_S = 0.1
 
--- Without a usable measurement the last command is kept for the first time, seconds. Until the next measurement
--- arrives the last one is extrapolated, but no longer than for the second; older ones are not averaged with new
--- ones.
+-- Until the next measurement arrives the last one is extrapolated, but no longer than this, seconds; older ones are
+-- not averaged with new ones.
 -- EXTRAPOLATED_S = 3.0
 
 -- A turn through a smaller angle, radians, is flown as a straight line: the difference is below the rounding error.
@@ -329,7 +328,7 @@ law.NO_PIECE = {u = -2, x = 0.0, y = 0.0, c = 1.0, s = 0.0, end_x = 0.0, end_y =
 -- TINY = 1.4551915228366852e-11 -- 2.0 ** (-300)
 -- TWO_PI = 6.283185307179586 -- 2.0 * pi
 
--- In heavy gusts it rises in proportion to them, from this angle on and up to this multiple.
+-- Gusts are heavy where they change the course by this angle in a second, radians.
 -- HEAVY_GUSTS = 0.04
 
 -- The last turn, where it is opposite to the circle, is aimed again from the present state as long as so much of
@@ -380,6 +379,8 @@ law.NONE = {side = 0, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0}
 -- fastest.
 -- UPDATE_MARGIN = 0.25
 -- SWITCH_MARGIN = 0.25
+
+-- Without a usable measurement the last command is kept for this time, seconds.
 -- BLIND_S = 1.0
 
 -- On the circle it falls so far that course errors are corrected at this rate, 1/s, or at this multiple of that at
@@ -399,6 +400,8 @@ law.NONE = {side = 0, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0}
 -- CALM_HOLD_GAIN = 0.35
 -- ROUGH_HOLD = 0.02
 -- ROUGH_AIR = 0.02
+
+-- In heavy gusts it rises in proportion to them, up to this multiple.
 -- HEAVY_GAIN = 1.5
 
 -- The gains of course and crosstrack corrections, to be divided by the response time: the delay of a change of bank
@@ -501,6 +504,34 @@ law.NO_PATH = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p
 -- Words that end with L or with R, as sets.
 -- ENDS_WITH_L = 25 -- set_of(Word.LSL) | set_of(Word.RSL) | set_of(Word.LRL)
 -- ENDS_WITH_R = 38 -- set_of(Word.RSR) | set_of(Word.LSR) | set_of(Word.RLR)
+
+-- The average before the first measurement.
+function law.first_air()
+    local near = {time_s = 0.02, square = 2.0 * 0.16--[[FIRST_NOISE]]}
+    local far = {time_s = 1.0--[[GUST_LAG_S]], square = 2.0 * 0.16--[[FIRST_NOISE]] + 0.6--[[FIRST_GUST]] *
+            1.0--[[GUST_LAG_S]]}
+    local recent = filled({time_s = 0.0, east_m_s = 0.0, north_m_s = 0.0, turn_rate = 0.0}, 64)
+    return {east_m_s = 0.0, north_m_s = 0.0, known_s = 1.0--[[ASSUMED_S]], near = near, far = far, along =
+            law.CALM_ALONG, recent = recent, lag_index = 64--[[SAMPLES]] - 2}
+end
+
+-- The observer before the first measurement.
+function law.first_observer(smoothing_s)
+    return {smoothing_s = smoothing_s, interval_s = 0.0, air = law.first_air(), estimate = law.NO_ESTIMATE}
+end
+
+-- The history of a bank that has always been this.
+function law.constant_history(bank_deg)
+    local unused = filled({end_s = -huge, bank_deg = bank_deg, integral = 0.0}, 128)
+    return {entries = with_last(unused, {end_s = 0.0, bank_deg = bank_deg, integral = 0.0})}
+end
+
+-- What is known before the first measurement, at a bank.
+function law.first_sensing(smoothing_s, bank_deg)
+    return {clock = law.FIRST_CLOCK, observer = law.first_observer(smoothing_s), history =
+            law.constant_history(bank_deg), present = law.NO_ESTIMATE, bank_rate_deg_s = 0.0, elapsed_s = 0.0,
+            model_error_deg = 0.0, is_known = false}
+end
 
 -- The length of a vector whose square neither overflows nor underflows.
 --
@@ -685,39 +716,20 @@ function law.clip(value, limit)
     return value > limit and limit or value < -limit and -limit or value
 end
 
--- The exact bank after `time_s` seconds under a constant command.
-function law.bank_after(roll_time_s, rate_deg_s, bank_deg, command_deg, time_s)
-    if roll_time_s == 0.0 and rate_deg_s == huge then
-        return command_deg
-    end
-    local missing = command_deg - bank_deg
-    local sign = missing >= 0.0 and 1.0 or -1.0
-    local beyond = max(abs(missing) - rate_deg_s * roll_time_s, 0.0)
-    local limited_s = beyond / rate_deg_s
-    if limited_s > time_s then
-        return bank_deg + sign * rate_deg_s * time_s
-    end
-    missing = missing - sign * beyond
-    if roll_time_s > 0.0 then
-        return command_deg - missing * exp(-(time_s - limited_s) / roll_time_s)
-    end
-    return time_s <= limited_s and command_deg - missing or command_deg
+-- The step of a time above 0.
+function law.roll_step(roll, time_s)
+    local kept, lags = exp(-time_s / roll.lag_s), time_s / roll.lag_s
+    -- The difference of large numbers for a short time, of which this is the series.
+    return {time_s = time_s, kept = kept, share = lags < 0.1--[[SHORT_LAGS]] and 0.5 - lags / 12.0 or 1.0 / lags -
+            kept / (1.0 - kept)}
 end
 
--- The bank after a short time under a constant command; exact without a lag of the bank rate.
-function law.roll_after(roll, now, command_deg, time_s)
-    if roll.lag_s == 0.0 or time_s == 0.0 then
-        return {bank_deg = law.bank_after(roll.time_s, roll.rate_deg_s, now.bank_deg, command_deg, time_s),
-                rate_deg_s = now.rate_deg_s}
-    end
-    local kept = exp(-time_s / roll.lag_s)
-    local wanted_deg_s = (command_deg - now.bank_deg - 0.5 * time_s * now.rate_deg_s) / roll.time_s
-    local rate_deg_s = law.clip(wanted_deg_s + kept * (now.rate_deg_s - wanted_deg_s), roll.rate_deg_s)
-    local lags = time_s / roll.lag_s
-    -- The difference of large numbers for a short time, of which this is the series.
-    local share = lags < 0.1--[[SHORT_LAGS]] and 0.5 - lags / 12.0 or 1.0 / lags - kept / (1.0 - kept)
-    return {bank_deg = now.bank_deg + time_s * (rate_deg_s + share * (now.rate_deg_s - rate_deg_s)), rate_deg_s =
-            rate_deg_s}
+-- The bank after a step under a constant command, where its rate has a lag.
+function law.lagging_after(roll, step, now, command_deg)
+    local wanted_deg_s = (command_deg - now.bank_deg - 0.5 * step.time_s * now.rate_deg_s) / roll.time_s
+    local rate_deg_s = law.clip(wanted_deg_s + step.kept * (now.rate_deg_s - wanted_deg_s), roll.rate_deg_s)
+    local change_deg = step.time_s * (rate_deg_s + step.share * (now.rate_deg_s - rate_deg_s))
+    return {bank_deg = now.bank_deg + change_deg, rate_deg_s = rate_deg_s}
 end
 
 -- The delay of a small change of bank from `beyond_deg` beyond the target, in degrees of bank, not in turn rates.
@@ -742,16 +754,17 @@ function law.lagging_delay(roll, now, target_deg, limit_deg)
     now = {bank_deg = now.bank_deg, rate_deg_s = law.clip(now.rate_deg_s, roll.rate_deg_s)}
     local dt = (abs(target_deg - now.bank_deg) / roll.rate_deg_s + 1.5--[[SETTLING]] * (roll.time_s + braking_s)) /
             24--[[STEPS]]
+    local half_step, step = law.roll_step(roll, 0.5 * dt), law.roll_step(roll, dt)
     while left > 0 do
         local change_deg = gain * (target_deg - now.bank_deg) - braking_s * now.rate_deg_s
         is_limited = abs(now.bank_deg + change_deg) > limit_deg
         if not is_limited and abs(target_deg - now.bank_deg) + roll.lag_s * abs(now.rate_deg_s) < small_deg then
             break
         end
-        local half = law.roll_after(roll, now, law.clip(now.bank_deg + change_deg, limit_deg), 0.5 * dt)
+        local half = law.lagging_after(roll, half_step, now, law.clip(now.bank_deg + change_deg, limit_deg))
         -- The demand at half time counts for the whole step.
         change_deg = gain * (target_deg - half.bank_deg) - braking_s * half.rate_deg_s
-        local after = law.roll_after(roll, now, law.clip(half.bank_deg + change_deg, limit_deg), dt)
+        local after = law.lagging_after(roll, step, now, law.clip(half.bank_deg + change_deg, limit_deg))
         local part_s = dt * (tangent - tan(0.5 * (now.bank_deg + after.bank_deg) * 0.017453292519943295))
         missing_s = missing_s + part_s
         moment_s2 = moment_s2 + part_s * (time_s + 0.5 * dt)
@@ -822,47 +835,28 @@ function law.limits_of(settings, vehicle, before)
             lead_s + 1.0--[[DELAY_SHARE]] * known.delay_s}
 end
 
--- The average before the first measurement.
-function law.first_air()
-    local near = {time_s = 0.02, square = 2.0 * 0.16--[[FIRST_NOISE]]}
-    local far = {time_s = 1.0--[[GUST_LAG_S]], square = 2.0 * 0.16--[[FIRST_NOISE]] + 0.6--[[FIRST_GUST]] *
-            1.0--[[GUST_LAG_S]]}
-    local recent = filled({time_s = 0.0, east_m_s = 0.0, north_m_s = 0.0, turn_rate = 0.0}, 64)
-    return {east_m_s = 0.0, north_m_s = 0.0, known_s = 1.0--[[ASSUMED_S]], near = near, far = far, along =
-            law.CALM_ALONG, recent = recent, lag_index = 64--[[SAMPLES]] - 2}
-end
-
--- The observer before the first measurement.
-function law.first_observer(smoothing_s)
-    return {smoothing_s = smoothing_s, interval_s = 0.0, air = law.first_air(), estimate = law.NO_ESTIMATE}
-end
-
--- The history of a bank that has always been this.
-function law.constant_history(bank_deg)
-    local unused = filled({end_s = -huge, bank_deg = bank_deg, integral = 0.0}, 128)
-    return {current_deg = bank_deg, entries = with_last(unused, {end_s = 0.0, bank_deg = bank_deg, integral = 0.0})}
-end
-
 -- No path.
 function law.no_path()
     return {pieces = filled({u = -2--[[ABSENT]], time_s = 0.0, radius_m = 1.0}, 12), total = 0, taken = 0, c = 1.0,
             s = 0.0}
 end
 
+-- The memory before there is a plan.
+function law.first_planning()
+    return {plan = law.NO_PLAN, path = law.no_path(), leads = law.NO_LEADS, response = law.NO_RESPONSE, search =
+            law.NO_ENTRY_SEARCH, has_joined = false}
+end
+
 -- The memory before the first measurement, with wings level.
 function law.first_memory(settings, vehicle)
-    local limits = law.limits_of(settings, vehicle, law.NO_LIMITS)
-    local observer, history = law.first_observer(settings.smoothing_s), law.constant_history(vehicle.bank_deg)
-    return {sensing = {clock = law.FIRST_CLOCK, observer = observer, history = history, limits = limits, present =
-            law.NO_ESTIMATE, bank_rate_deg_s = 0.0, elapsed_s = 0.0, model_error_deg = 0.0, is_known = false}, plan
-            = law.NO_PLAN, path = law.no_path(), leads = law.NO_LEADS, response = law.NO_RESPONSE, search =
-            law.NO_ENTRY_SEARCH, trim = 0.0, command = {turn_rate_deg_s = 0.0, bank_deg = 0.0, phase =
-            3--[[NO_DATA]], time_to_join_s = (0.0 / 0.0), side = settings.side, next_phase = 3--[[NO_DATA]],
-            next_in_s = (0.0 / 0.0)}, step_s = 0.0}
+    return {sensing = law.first_sensing(settings.smoothing_s, vehicle.bank_deg), limits = law.limits_of(settings,
+            vehicle, law.NO_LIMITS), planning = law.first_planning(), trim = 0.0, command = {turn_rate_deg_s = 0.0,
+            bank_deg = 0.0, phase = 3--[[NO_DATA]], time_to_join_s = (0.0 / 0.0), side = settings.side, next_phase =
+            3--[[NO_DATA]], next_in_s = (0.0 / 0.0)}, step_s = 0.0}
 end
 
 -- The clock `dt` seconds later.
-function law.clock_advance(clock, dt)
+function law.advance_clock(clock, dt)
     local time_s, since_s, gap_s, jump_s, first_s, latest_s = clock.time_s, clock.since_s, clock.gap_s,
             clock.jump_s, clock.first_s, clock.latest_s
     return {time_s = time_s, since_s = since_s + dt, gap_s = gap_s, jump_s = jump_s, first_s = first_s, latest_s =
@@ -880,9 +874,9 @@ function law.record_bank(history, bank_deg, dt, covered_s)
     local entry = {end_s = last.end_s + dt, bank_deg = bank_deg, integral = last.integral + dt * 0.5 *
             (last.bank_deg + bank_deg)}
     if entry.end_s - entries[127].end_s > 2.0 * covered_s / 128--[[ENTRIES]] or entries[1].end_s == -huge then
-        return {current_deg = bank_deg, entries = appended(entries, entry)}
+        return {entries = appended(entries, entry)}
     end
-    return {current_deg = bank_deg, entries = with_last(entries, entry)}
+    return {entries = with_last(entries, entry)}
 end
 
 -- Whether the time of a measurement is within `LATEST_S`, and all other numbers together within `LARGEST_VALUE`.
@@ -899,6 +893,11 @@ end
 -- Whether a measurement is plausible and of an aircraft in flight, faster than `LEAST_AIRSPEED_M_S`.
 function law.is_usable(state)
     return law.is_plausible(state) and state.airspeed_m_s > 0.1--[[LEAST_AIRSPEED_M_S]]
+end
+
+-- The bank at the end of the last step.
+function law.present_deg(history)
+    return history.entries[128].bank_deg
 end
 
 -- Turn rate of a coordinated turn, radians per second, with the sign of the bank: g tan(bank)/V.
@@ -1020,7 +1019,7 @@ end
 -- The bank `delay_s` seconds ago.
 function law.delayed_deg(history, delay_s)
     if delay_s <= 0.0 then
-        return history.current_deg
+        return law.present_deg(history)
     end
     local then_s = history.entries[128].end_s - delay_s
     return law.bank_within(history, law.index_at(history, then_s), then_s)
@@ -1204,7 +1203,7 @@ end
 -- The mean bank over the last `delay_s` seconds.
 function law.mean_deg(history, delay_s)
     if delay_s <= 0.0 then
-        return history.current_deg
+        return law.present_deg(history)
     end
     local last = history.entries[128]
     local then_s = last.end_s - delay_s
@@ -1220,49 +1219,50 @@ function law.estimate_at_present(estimate, history, delay_s)
             estimate.air_north_m_s, estimate.turning
     local error_deg = bank_deg - law.delayed_deg(history, delay_s)
     local mean_rate = law.turn_rate_at(turning, law.mean_deg(history, delay_s) + error_deg, V)
-    local present_deg = history.current_deg + error_deg
-    local present_rate = law.turn_rate_at(turning, present_deg, V)
+    local now_deg = law.present_deg(history) + error_deg
+    local present_rate = law.turn_rate_at(turning, now_deg, V)
     -- The slip changes with the turn rate, and with it the direction of flight.
     pose = law._rotated(pose, turning.lead_s * (mean_rate - last_rate))
     pose = law.constant_turn(pose, V, mean_rate, delay_s, {east, north})
     pose = law._rotated(pose, turning.lead_s * (present_rate - mean_rate))
-    return {time_s = time_s + delay_s, pose = pose, airspeed_m_s = V, turn_rate = present_rate, bank_deg =
-            present_deg, air_east_m_s = east, air_north_m_s = north, turning = turning}
+    return {time_s = time_s + delay_s, pose = pose, airspeed_m_s = V, turn_rate = present_rate, bank_deg = now_deg,
+            air_east_m_s = east, air_north_m_s = north, turning = turning}
 end
 
 -- What is known at a measurement, `step_s` seconds after the last.
 --
--- Telemetry may be slower than the steps: until the next measurement, but no longer than `EXTRAPOLATED_S`, the last
--- estimate is extrapolated with the modelled bank.
-function law.sense(sensing, settings, vehicle, measurement, step_s)
-    local clock, observer, history, limits, present, elapsed_s, error_deg = sensing.clock, sensing.observer,
-            sensing.history, sensing.limits, sensing.present, sensing.elapsed_s, sensing.model_error_deg
+-- `smoothing_s` is the shortest smoothing time, `covered_s` what the history of banks has to cover. Telemetry may
+-- be slower than the steps: until the next measurement, but no longer than `EXTRAPOLATED_S`, the last estimate is
+-- extrapolated with the modelled bank.
+function law.sense(sensing, vehicle, measurement, step_s, smoothing_s, covered_s)
+    local clock, observer, history, present, elapsed_s, error_deg = sensing.clock, sensing.observer,
+            sensing.history, sensing.present, sensing.elapsed_s, sensing.model_error_deg
     local rate_deg_s = vehicle.bank_rate_deg_s
     if step_s > 0.0 then
-        clock = law.clock_advance(clock, step_s)
+        clock = law.advance_clock(clock, step_s)
         elapsed_s = elapsed_s + step_s
-        history = law.record_bank(history, vehicle.bank_deg, step_s, settings.covered_s)
+        history = law.record_bank(history, vehicle.bank_deg, step_s, covered_s)
     end
     if not law.is_usable(measurement) then
-        return {clock = clock, observer = observer, history = history, limits = limits, present = present,
-                bank_rate_deg_s = rate_deg_s, elapsed_s = elapsed_s, model_error_deg = error_deg, is_known = false}
+        return {clock = clock, observer = observer, history = history, present = present, bank_rate_deg_s =
+                rate_deg_s, elapsed_s = elapsed_s, model_error_deg = error_deg, is_known = false}
     end
     if measurement.time_s == clock.time_s then
         if present.airspeed_m_s == 0.0 or clock.since_s > 3.0--[[EXTRAPOLATED_S]] then
-            return {clock = clock, observer = observer, history = history, limits = limits, present = present,
-                    bank_rate_deg_s = rate_deg_s, elapsed_s = elapsed_s, model_error_deg = error_deg, is_known =
-                    false}
+            return {clock = clock, observer = observer, history = history, present = present, bank_rate_deg_s =
+                    rate_deg_s, elapsed_s = elapsed_s, model_error_deg = error_deg, is_known = false}
         end
-        present = law.estimate_after(law.estimate_with_bank(present, history.current_deg + error_deg), elapsed_s)
-        return {clock = clock, observer = observer, history = history, limits = limits, present = present,
-                bank_rate_deg_s = rate_deg_s, elapsed_s = 0.0, model_error_deg = error_deg, is_known = true}
+        present = law.estimate_after(law.estimate_with_bank(present, law.present_deg(history) + error_deg),
+                elapsed_s)
+        return {clock = clock, observer = observer, history = history, present = present, bank_rate_deg_s =
+                rate_deg_s, elapsed_s = 0.0, model_error_deg = error_deg, is_known = true}
     end
     local is_first = clock.time_s == -huge
     local is_new
     clock, is_new = law.check_stamp(clock, measurement.time_s)
     if not is_new then
-        return {clock = clock, observer = observer, history = history, limits = limits, present = present,
-                bank_rate_deg_s = rate_deg_s, elapsed_s = elapsed_s, model_error_deg = error_deg, is_known = false}
+        return {clock = clock, observer = observer, history = history, present = present, bank_rate_deg_s =
+                rate_deg_s, elapsed_s = elapsed_s, model_error_deg = error_deg, is_known = false}
     end
     if is_first then
         history = law.constant_history(vehicle.bank_deg)
@@ -1270,22 +1270,35 @@ function law.sense(sensing, settings, vehicle, measurement, step_s)
     if clock.jump_s ~= 0.0 or clock.gap_s > 3.0--[[EXTRAPOLATED_S]] then
         observer = law.restart(observer)
     end
-    if vehicle.revision ~= limits.revision then
-        limits = law.limits_of(settings, vehicle, limits)
-    end
     local known = vehicle.estimates
     local turning, bank_deg = {ratio = known.turn_ratio, lead_s = known.course_lead_s}, law.delayed_deg(history,
             known.delay_s)
-    observer = law.observe(observer, law.remove_bias(known, measurement), bank_deg, settings.smoothing_s, turning)
+    observer = law.observe(observer, law.remove_bias(known, measurement), bank_deg, smoothing_s, turning)
     present = law.estimate_at_present(observer.estimate, history, known.delay_s)
-    return {clock = clock, observer = observer, history = history, limits = limits, present = present,
-            bank_rate_deg_s = rate_deg_s, elapsed_s = 0.0, model_error_deg = present.bank_deg - history.current_deg,
-            is_known = true}
+    return {clock = clock, observer = observer, history = history, present = present, bank_rate_deg_s = rate_deg_s,
+            elapsed_s = 0.0, model_error_deg = present.bank_deg - law.present_deg(history), is_known = true}
 end
 
 -- The search without an aim.
 function law.end_entry_search(search)
     return with_fields(search, {aim = 0--[[NOTHING]]})
+end
+
+-- The memory without a search.
+function law.end_search(planning)
+    return with_fields(planning, {search = law.end_entry_search(planning.search)})
+end
+
+-- Whether delays of changes of bank are others than before.
+function law.is_other_roll(limits, before)
+    local a, b = limits.roll, before.roll
+    local same = a.time_s == b.time_s and a.rate_deg_s == b.rate_deg_s and a.lag_s == b.lag_s
+    return not (same and limits.limit_deg == before.limit_deg)
+end
+
+-- The memory without delays of changes of bank, which are then computed anew.
+function law.forget_leads(planning)
+    return with_fields(planning, {leads = law.NO_LEADS})
 end
 
 -- The route by a clock that has jumped.
@@ -1460,30 +1473,23 @@ function law.search_from(settings, limits, aim, state, reversing)
             settings.radius_m + limits.reversal_m, side = settings.side, reversing = reversing})
 end
 
--- The memory with the plan to hold the circle where the flight begins on it, otherwise with a search if it is due.
+-- The plan to hold the circle where the flight begins on it, otherwise a search if it is due.
 --
 -- The fastest entry begins where a command takes effect, which depends on the bank and the first turn. So that is
 -- found first, as it would be with wings level.
-function law.begin_first_plan(memory, settings)
-    local limits, present = memory.sensing.limits, memory.sensing.present
-    memory = with_fields(memory, {plan = law.plan_on_circle(settings, limits, memory.plan,
+function law.begin_first_plan(planning, settings, limits, sensing)
+    local present = sensing.present
+    planning = with_fields(planning, {plan = law.plan_on_circle(settings, limits, planning.plan,
             law.relative_state(settings, present))})
-    if memory.plan.route.side ~= 0 then
-        return with_fields(memory, {search = law.end_entry_search(memory.search)})
+    if planning.plan.route.side ~= 0 then
+        return law.end_search(planning)
     end
-    if memory.search.aim ~= 0--[[NOTHING]] or not law.is_search_due(memory.sensing.clock, memory.plan) then
-        return memory
+    if planning.search.aim ~= 0--[[NOTHING]] or not law.is_search_due(sensing.clock, planning.plan) then
+        return planning
     end
     local later = law.estimate_after(present, law.lead_s(limits, present.bank_deg, 0.0))
-    return with_fields(memory, {search = law.search_from(settings, limits, 1--[[FIRST_TURN]],
+    return with_fields(planning, {search = law.search_from(settings, limits, 1--[[FIRST_TURN]],
             law.relative_state(settings, later), true)})
-end
-
--- Whether delays of changes of bank are others than before.
-function law.is_other_roll(limits, before)
-    local a, b = limits.roll, before.roll
-    local same = a.time_s == b.time_s and a.rate_deg_s == b.rate_deg_s and a.lag_s == b.lag_s
-    return not (same and limits.limit_deg == before.limit_deg)
 end
 
 -- The control of the last piece before the circle; `ABSENT` on the circle.
@@ -1638,34 +1644,23 @@ function law.next_on(path, route)
     return path, with_fields(route, {current = route.second, second = route.third, third = third, more_s = more_s})
 end
 
--- The observer that measures the gusts along the flight anew.
-function law.restart_gusts(observer)
-    return with_fields(observer, {air = with_fields(observer.air, {along = law.CALM_ALONG})})
-end
-
--- What is known, without the gusts: the turns before the circle look like gusts.
-function law.measure_gusts_anew(sensing)
-    return with_fields(sensing, {observer = law.restart_gusts(sensing.observer)})
-end
-
 -- The time from the end of the current piece to the circle.
 function law.later_s(route)
     return route.second.time_s + route.third.time_s + route.more_s
 end
 
--- The memory with the plan at the response: without the pieces that are complete when a command takes effect.
+-- The plan at the response: without the pieces that are complete when a command takes effect.
 --
 -- A change of bank takes effect with a delay; from then on the aircraft turns like one that banks instantly.
-function law.advance_plan(memory, settings)
-    local limits, estimate, leads = memory.sensing.limits, memory.sensing.present, memory.leads
-    local route, left_s, join_s, planned_join_s, searched_s = memory.plan.route, memory.plan.remaining_s,
-            memory.plan.join_s, memory.plan.planned_join_s, memory.plan.searched_s
-    local path = memory.path
+function law.advance_plan(planning, settings, limits, sensing)
+    local estimate, leads, path = sensing.present, planning.leads, planning.path
+    local route, left_s, join_s, planned_join_s, searched_s = planning.plan.route, planning.plan.remaining_s,
+            planning.plan.join_s, planning.plan.planned_join_s, planning.plan.searched_s
     -- Pieces are dropped that are complete, in a plan of its own at most three.
     local state, early_s
     while true do
-        leads = law.leads_to(limits, leads, {bank_deg = estimate.bank_deg, rate_deg_s =
-                memory.sensing.bank_rate_deg_s}, route)
+        leads = law.leads_to(limits, leads, {bank_deg = estimate.bank_deg, rate_deg_s = sensing.bank_rate_deg_s},
+                route)
         local later = law.estimate_after(law.turning_more(estimate, leads.more), leads.current_s)
         state = law.displaced(law.relative_state(settings, later), estimate.turning.ratio * leads.displaced_s2)
         left_s = law.remaining_s(route, state, left_s)
@@ -1676,11 +1671,10 @@ function law.advance_plan(memory, settings)
         path, route = law.next_on(path, route)
         left_s = route.current.time_s
     end
+    local has_joined = planning.has_joined
     if law.is_holding(route) then
         early_s = 0.0
-        if not law.is_holding(memory.plan.route) then
-            memory = with_fields(memory, {sensing = law.measure_gusts_anew(memory.sensing)})
-        end
+        has_joined = has_joined or not law.is_holding(planning.plan.route)
     else
         join_s = state.time_s + left_s + law.later_s(route)
         if path.total > 0 then
@@ -1689,9 +1683,9 @@ function law.advance_plan(memory, settings)
             planned_join_s = join_s
         end
     end
-    return with_fields(memory, {path = path, plan = {route = route, remaining_s = left_s, join_s = join_s,
+    return with_fields(planning, {path = path, plan = {route = route, remaining_s = left_s, join_s = join_s,
             planned_join_s = planned_join_s, searched_s = searched_s}, leads = leads, response = {state = state,
-            offset = law.offset_of(route, state, settings.radius_m), early_s = early_s}})
+            offset = law.offset_of(route, state, settings.radius_m), early_s = early_s}, has_joined = has_joined})
 end
 
 -- The same by gusts along the flight since `restart_gusts`: a slip that changes with the bank does not count.
@@ -1763,39 +1757,39 @@ end
 -- still air the line before that turn is moved to the aircraft, and the radius of the turn itself follows from the
 -- state; it is the tightest one where that is too wide. In heavy gusts the last plan is followed: the aim would
 -- move with them.
-function law.aim_again(memory, settings)
-    local limits, state, plan = memory.sensing.limits, memory.response.state, memory.plan
-    local route = memory.plan.route
+function law.aim_again(planning, settings, limits, sensing)
+    local state, plan = planning.response.state, planning.plan
+    local route = planning.plan.route
     local is_still = route.wind_east_m_s == 0.0 and route.wind_north_m_s == 0.0
-    local is_calm = law.along_roughness(memory.sensing.observer) <= 0.04--[[HEAVY_GUSTS]]
+    local is_calm = law.along_roughness(sensing.observer) <= 0.04--[[HEAVY_GUSTS]]
     if law.is_holding(route) or route.third.u ~= -2--[[ABSENT]] or not (is_still and is_calm and
             law.reverses(route)) then
-        return memory
+        return planning
     end
     local circle_m = settings.radius_m + limits.reversal_m
     if route.second.u ~= -2--[[ABSENT]] then
         if route.current.u ~= 0 then
-            return memory
+            return planning
         end
         route = law.with_last_line(route, state, circle_m)
     else
         local radius_m = law.last_radius_m(route, state, circle_m)
         if not (0.0 < radius_m and radius_m < 8.0--[[WIDEST_AIMED]] * limits.turns.planned_m) then
-            return memory
+            return planning
         end
         route = law.with_last_turn(route, state, max(radius_m, limits.turns.tightest_m))
         local missed_m = law.length(route.current.end_x, route.current.end_y) - circle_m
         if abs(missed_m) > 0.5--[[LOST_OFFSET]] * limits.turns.planned_m then
-            return memory
+            return planning
         end
     end
     local left_s, whole_s = route.current.time_s, route.current.time_s + law.later_s(route)
     local later = whole_s - plan.remaining_s - law.later_s(plan.route)
-    if left_s < 0.2--[[AIMED_LEFT_S]] + memory.response.early_s or abs(later) > 1.0--[[AIM_CHANGE_S]] then
-        return memory
+    if left_s < 0.2--[[AIMED_LEFT_S]] + planning.response.early_s or abs(later) > 1.0--[[AIM_CHANGE_S]] then
+        return planning
     end
-    memory = with_fields(memory, {plan = law.plan_along(plan, route, state.time_s + whole_s)})
-    return law.advance_plan(memory, settings)
+    planning = with_fields(planning, {plan = law.plan_along(plan, route, state.time_s + whole_s)})
+    return law.advance_plan(planning, settings, limits, sensing)
 end
 
 -- The plan with the time of the last search.
@@ -1804,21 +1798,20 @@ function law.searched_at(plan, time_s)
 end
 
 -- The memory with a search for a plan from a state, and when it began.
-function law.begin_plan_search(memory, settings, aim, state)
-    local reversing = memory.plan.route.side == 0 or law.reverses(memory.plan.route)
-    memory = with_fields(memory, {search = law.search_from(settings, memory.sensing.limits, aim, state, reversing)})
-    return with_fields(memory, {plan = law.searched_at(memory.plan, memory.sensing.clock.time_s)})
+function law.begin_plan_search(planning, settings, limits, aim, state, now_s)
+    local reversing = planning.plan.route.side == 0 or law.reverses(planning.plan.route)
+    planning = with_fields(planning, {search = law.search_from(settings, limits, aim, state, reversing)})
+    return with_fields(planning, {plan = law.searched_at(planning.plan, now_s)})
 end
 
 -- The memory with a search for another plan, if that is due.
-function law.reconsider(memory, settings)
-    local is_given = memory.path.total > 0
-    if is_given or memory.search.aim ~= 0--[[NOTHING]] or not law.is_search_due(memory.sensing.clock, memory.plan)
-            then
-        return memory
+function law.reconsider(planning, settings, limits, sensing)
+    local is_given = planning.path.total > 0
+    if is_given or planning.search.aim ~= 0--[[NOTHING]] or not law.is_search_due(sensing.clock, planning.plan) then
+        return planning
     end
-    memory = law.aim_again(memory, settings)
-    local limits, offset, plan = memory.sensing.limits, memory.response.offset, memory.plan
+    planning = law.aim_again(planning, settings, limits, sensing)
+    local offset, plan = planning.response.offset, planning.plan
     local r, V = limits.turns.planned_m, limits.turns.airspeed_m_s
     local holding = law.is_holding(plan.route)
     local is_lost = abs(offset.crosstrack) > 0.5--[[LOST_OFFSET]] * r or abs(offset.course_error) >
@@ -1827,42 +1820,53 @@ function law.reconsider(memory, settings)
     local east, north = limits.wind_east_m_s - plan.route.wind_east_m_s, limits.wind_north_m_s -
             plan.route.wind_north_m_s
     if is_lost or (not holding and law.length(east, north) > 0.1--[[WIND_DIFFERS]] * V) then
-        return law.begin_plan_search(memory, settings, 2--[[ANY]], memory.response.state)
+        return law.begin_plan_search(planning, settings, limits, 2--[[ANY]], planning.response.state,
+                sensing.clock.time_s)
     end
     if holding then
-        return memory
+        return planning
     end
     local later_m = abs(plan.join_s - plan.planned_join_s) * V
     local deviates = max(abs(offset.crosstrack), later_m) > 0.1--[[DEVIATION]] * r
     local is_still = limits.wind_east_m_s == 0.0 and limits.wind_north_m_s == 0.0
-    return law.begin_plan_search(memory, settings, (deviates or is_still) and 4--[[UPDATE]] or 3--[[BETTER]],
-            memory.response.state)
+    local aim = (deviates or is_still) and 4--[[UPDATE]] or 3--[[BETTER]]
+    return law.begin_plan_search(planning, settings, limits, aim, planning.response.state, sensing.clock.time_s)
+end
+
+-- The plan from the present state on, and a search begun for another if it is due.
+function law.update_plan(planning, settings, limits, sensing)
+    local clock = sensing.clock
+    if clock.since_s == 0.0 and clock.jump_s ~= 0.0 then
+        planning = with_fields(planning, {plan = law.plan_by_clock(planning.plan, clock.jump_s)})
+        planning = law.end_search(planning)
+    end
+    if planning.plan.route.side == 0 then
+        planning = law.begin_first_plan(planning, settings, limits, sensing)
+    end
+    if planning.plan.route.side == 0 then
+        return planning
+    end
+    planning = law.advance_plan(planning, settings, limits, sensing)
+    return law.reconsider(planning, settings, limits, sensing)
 end
 
 -- The memory after a measurement: what is known, the present plan, and a search begun for another if it is due.
 function law.prepare(memory, settings, vehicle, measurement)
-    local before = memory.sensing.limits
-    memory = with_fields(memory, {sensing = law.sense(memory.sensing, settings, vehicle, measurement,
-            memory.step_s)})
+    local smoothing_s, covered_s = settings.smoothing_s, settings.covered_s
+    memory = with_fields(memory, {sensing = law.sense(memory.sensing, vehicle, measurement, memory.step_s,
+            smoothing_s, covered_s)})
     if not memory.sensing.is_known then
-        return with_fields(memory, {search = law.end_entry_search(memory.search)})
+        return with_fields(memory, {planning = law.end_search(memory.planning)})
     end
-    local clock = memory.sensing.clock
-    if clock.since_s == 0.0 and clock.jump_s ~= 0.0 then
-        memory = with_fields(memory, {plan = law.plan_by_clock(memory.plan, clock.jump_s)})
-        memory = with_fields(memory, {search = law.end_entry_search(memory.search)})
+    if vehicle.revision ~= memory.limits.revision then
+        local limits = law.limits_of(settings, vehicle, memory.limits)
+        if law.is_other_roll(limits, memory.limits) then
+            memory = with_fields(memory, {planning = law.forget_leads(memory.planning)})
+        end
+        memory = with_fields(memory, {limits = limits})
     end
-    if memory.plan.route.side == 0 then
-        memory = law.begin_first_plan(memory, settings)
-    end
-    if memory.plan.route.side == 0 then
-        return memory
-    end
-    if law.is_other_roll(memory.sensing.limits, before) then
-        memory = with_fields(memory, {leads = law.NO_LEADS})
-    end
-    memory = law.advance_plan(memory, settings)
-    return law.reconsider(memory, settings)
+    return with_fields(memory, {planning = law.update_plan(memory.planning, settings, memory.limits,
+            memory.sensing)})
 end
 
 -- The radius of the circle that is searched for.
@@ -2516,43 +2520,44 @@ end
 -- The memory after a complete search, with the plan that it has found if that is better than the present one.
 --
 -- After the search for the first turn the one for the first plan follows.
-function law.take_entry(memory, settings)
-    local aim, state, entry = memory.search.aim, memory.search.state, law.found_entry(memory.search)
-    memory = with_fields(memory, {search = law.end_entry_search(memory.search)})
+function law.take_entry(planning, settings, limits, sensing)
+    local aim, state, entry = planning.search.aim, planning.search.state, law.found_entry(planning.search)
+    planning = law.end_search(planning)
     if entry.side == 0 then
-        return memory
+        return planning
     end
-    local limits, present = memory.sensing.limits, memory.sensing.present
+    local present = sensing.present
     if aim == 1--[[FIRST_TURN]] then
         local first = law.controls(entry.word)
         local bank_deg = first ~= -2--[[ABSENT]] and -first * limits.limit_deg or entry.side * limits.hold_deg
         local later = law.estimate_after(present, law.lead_s(limits, present.bank_deg, bank_deg))
-        return law.begin_plan_search(memory, settings, 2--[[ANY]], law.relative_state(settings, later))
+        return law.begin_plan_search(planning, settings, limits, 2--[[ANY]], law.relative_state(settings, later),
+                sensing.clock.time_s)
     end
     -- How much later it is than where the search began.
-    local passed_s = aim == 2--[[ANY]] and 0.0 or memory.response.state.time_s - state.time_s
-    if aim ~= 2--[[ANY]] and not law.is_better(entry, memory.plan, limits.turns, aim == 4--[[UPDATE]], passed_s)
+    local passed_s = aim == 2--[[ANY]] and 0.0 or planning.response.state.time_s - state.time_s
+    if aim ~= 2--[[ANY]] and not law.is_better(entry, planning.plan, limits.turns, aim == 4--[[UPDATE]], passed_s)
             then
-        return memory
+        return planning
     end
     local route, join_s = law.route_of(state, entry), state.time_s + law.duration_s(entry)
     local plan = {route = route, remaining_s = route.current.time_s, join_s = join_s, planned_join_s = join_s,
-            searched_s = memory.plan.searched_s}
-    memory = with_fields(memory, {plan = plan})
-    return law.advance_plan(memory, settings)
+            searched_s = planning.plan.searched_s}
+    planning = with_fields(planning, {plan = plan})
+    return law.advance_plan(planning, settings, limits, sensing)
 end
 
 -- The memory after at most `steps` more steps of its search, with the plan that this has found.
-function law.continue_search(memory, settings, steps)
+function law.continue_search(planning, settings, limits, sensing, steps)
     local left = steps
-    while memory.search.aim ~= 0--[[NOTHING]] and left > 0 do
-        memory = with_fields(memory, {search = law.advance_entry_search(memory.search, left)})
-        left = memory.search.in_air.left
-        if law.is_complete(memory.search) then
-            memory = law.take_entry(memory, settings)
+    while planning.search.aim ~= 0--[[NOTHING]] and left > 0 do
+        planning = with_fields(planning, {search = law.advance_entry_search(planning.search, left)})
+        left = planning.search.in_air.left
+        if law.is_complete(planning.search) then
+            planning = law.take_entry(planning, settings, limits, sensing)
         end
     end
-    return memory
+    return planning
 end
 
 -- The rate at which the vehicle turns at a bank: the inverse of `bank_for`, but in degrees per second.
@@ -2562,17 +2567,32 @@ end
 
 -- The memory with the safe command while there is no usable measurement, or no plan yet.
 function law.without_data(memory, settings, known, dt)
-    local bank_deg, route = memory.command.bank_deg, memory.plan.route
+    local bank_deg, route = memory.command.bank_deg, memory.planning.plan.route
     if memory.sensing.clock.since_s > 1.0--[[BLIND_S]] then
         local on_circle = route.side ~= 0 and law.is_holding(route)
-        bank_deg = on_circle and route.side * memory.sensing.limits.hold_deg or 0.0
+        bank_deg = on_circle and route.side * memory.limits.hold_deg or 0.0
     end
     -- The limit may be lower now than when the last command was given.
     bank_deg = law.clip(bank_deg, settings.command_limit_deg)
     local rate = law.turn_rate_deg_s(known, bank_deg)
     local command = {turn_rate_deg_s = rate, bank_deg = bank_deg, phase = 3--[[NO_DATA]], time_to_join_s = (0.0 /
             0.0), side = memory.command.side, next_phase = 3--[[NO_DATA]], next_in_s = (0.0 / 0.0)}
-    return with_fields(memory, {leads = law.NO_LEADS, command = command, step_s = dt})
+    return with_fields(memory, {planning = law.forget_leads(memory.planning), command = command, step_s = dt})
+end
+
+-- The observer that measures the gusts along the flight anew.
+function law.restart_gusts(observer)
+    return with_fields(observer, {air = with_fields(observer.air, {along = law.CALM_ALONG})})
+end
+
+-- What is known, without the gusts: the turns before the circle look like gusts.
+function law.measure_gusts_anew(sensing)
+    return with_fields(sensing, {observer = law.restart_gusts(sensing.observer)})
+end
+
+-- The memory once it is known elsewhere that the circle was joined.
+function law.forget_joining(planning)
+    return with_fields(planning, {has_joined = false})
 end
 
 -- The velocity along the path: relative to the plan's steady wind; on the circle, relative to the circle.
@@ -2645,21 +2665,21 @@ end
 --
 -- Such a turn is planned again before it ends, unless the path is given; flying it as wide as planned would only
 -- cost time.
-function law.target_bank(settings, memory, known, dt)
-    local limits, route, trim = memory.sensing.limits, memory.plan.route, memory.trim
-    local u = memory.plan.route.current.u
-    if u ~= 0 and route.second.u ~= -2--[[ABSENT]] and memory.path.total == 0 then
+function law.target_bank(trim, settings, limits, sensing, planning, known, dt)
+    local route, observer = planning.plan.route, sensing.observer
+    local u = planning.plan.route.current.u
+    if u ~= 0 and route.second.u ~= -2--[[ABSENT]] and planning.path.total == 0 then
         return -u * limits.limit_deg, trim
     end
-    local state, offset = memory.response.state, memory.response.offset
+    local state, offset = planning.response.state, planning.response.offset
     local vx, vy = law.path_velocity(route, state)
     local speed, R, V, holding = law.length(vx, vy), settings.radius_m, limits.turns.airspeed_m_s,
             law.is_holding(route)
-    local response_s = limits.lag_s + memory.sensing.observer.smoothing_s
-    local gain = law.corrections_gain(settings, known, memory.sensing.observer, response_s, V / R, holding)
+    local response_s = limits.lag_s + observer.smoothing_s
+    local gain = law.corrections_gain(settings, known, observer, response_s, V / R, holding)
     local bandwidth = 1.0 / (response_s + gain * dt)
     local place_gain = holding and 1.2--[[HOLD_GAIN]] * speed / R or 0.25--[[PLACE_GAIN]] * bandwidth
-    local followed = holding and law.steep_offset(offset, R, law.along_roughness(memory.sensing.observer)) or offset
+    local followed = holding and law.steep_offset(offset, R, law.along_roughness(observer)) or offset
     local course = law.course_rate(followed, gain * bandwidth, place_gain, speed)
     if holding then
         trim = law.next_trim(settings, trim, offset.crosstrack, gain * bandwidth, V, dt)
@@ -2689,21 +2709,45 @@ end
 
 -- The memory with the command for the next `dt` seconds, which follows the plan.
 function law.conclude(memory, settings, vehicle, dt)
-    if not memory.sensing.is_known or memory.plan.route.side == 0 then
+    if not memory.sensing.is_known or memory.planning.plan.route.side == 0 then
         return law.without_data(memory, settings, vehicle.estimates, dt)
     end
-    local limits, present = memory.sensing.limits, memory.sensing.present
-    local target_deg, trim = law.target_bank(settings, memory, vehicle.estimates, dt)
+    if memory.planning.has_joined then
+        memory = with_fields(memory, {sensing = law.measure_gusts_anew(memory.sensing)})
+        memory = with_fields(memory, {planning = law.forget_joining(memory.planning)})
+    end
+    local limits, present, plan = memory.limits, memory.sensing.present, memory.planning.plan
+    local target_deg, trim = law.target_bank(memory.trim, settings, limits, memory.sensing, memory.planning,
+            vehicle.estimates, dt)
     target_deg = law.clip(target_deg, limits.limit_deg)
     local now = {bank_deg = present.bank_deg, rate_deg_s = memory.sensing.bank_rate_deg_s}
     local bank_deg = law.demand_deg(vehicle.estimates.roll, now, target_deg, limits.limit_deg)
     bank_deg = law.clip(bank_deg, settings.command_limit_deg)
-    local route = memory.plan.route
+    local route = plan.route
     local command = {turn_rate_deg_s = law.turn_rate_deg_s(vehicle.estimates, bank_deg), bank_deg = bank_deg, phase
-            = law.phase_code(route.current.u), time_to_join_s = max(memory.plan.join_s - present.time_s, 0.0), side
-            = route.side, next_phase = law.phase_code(route.second.u), next_in_s = law.is_holding(route) and huge or
-            memory.plan.remaining_s - memory.response.early_s}
+            = law.phase_code(route.current.u), time_to_join_s = max(plan.join_s - present.time_s, 0.0), side =
+            route.side, next_phase = law.phase_code(route.second.u), next_in_s = law.is_holding(route) and huge or
+            plan.remaining_s - memory.planning.response.early_s}
     return with_fields(memory, {trim = trim, command = command, step_s = dt})
+end
+
+-- The exact bank after `time_s` seconds under a constant command.
+function law.bank_after(roll_time_s, rate_deg_s, bank_deg, command_deg, time_s)
+    if roll_time_s == 0.0 and rate_deg_s == huge then
+        return command_deg
+    end
+    local missing = command_deg - bank_deg
+    local sign = missing >= 0.0 and 1.0 or -1.0
+    local beyond = max(abs(missing) - rate_deg_s * roll_time_s, 0.0)
+    local limited_s = beyond / rate_deg_s
+    if limited_s > time_s then
+        return bank_deg + sign * rate_deg_s * time_s
+    end
+    missing = missing - sign * beyond
+    if roll_time_s > 0.0 then
+        return command_deg - missing * exp(-(time_s - limited_s) / roll_time_s)
+    end
+    return time_s <= limited_s and command_deg - missing or command_deg
 end
 
 -- The model of a vehicle that is as declared after `dt` seconds under a command; `identify` is not needed then.
@@ -3542,7 +3586,7 @@ end
 
 -- Begin to improve the known point of joining, so that it is the best one when the switch is moved.
 local function expect(now)
-    local limits = flight.memory.sensing.limits
+    local limits = flight.memory.limits
     if limits.wind_east_m_s == 0.0 and limits.wind_north_m_s == 0.0 then
         last_problem = nil
         return
@@ -3688,7 +3732,7 @@ end
 
 -- Whether a search of the law goes on.
 local function is_searching()
-    return flight and flight.is_flown and flight.memory.search.aim ~= 0
+    return flight and flight.is_flown and flight.memory.planning.search.aim ~= 0
 end
 
 -- Whether another callback for a search follows before the next step, which is due in so many milliseconds.
@@ -3700,7 +3744,8 @@ end
 -- A callback for a search.
 local function continue_search()
     if is_searching() then
-        flight.memory = law.continue_search(flight.memory, flight.settings, 1)
+        local memory = flight.memory
+        memory.planning = law.continue_search(memory.planning, flight.settings, memory.limits, memory.sensing, 1)
     elseif flight and last_problem then
         improve_join(last_problem)
     end

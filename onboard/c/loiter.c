@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 470f88b5eaa438f3b6e3bb828fa2227dcf5d837ad2b368aaa59a1a81232a1d05
+ * SHA-256 of the source: b8a265b37ff760d3533a6a8f698d2491aacb1af645fb68c979c8f4700759c045
  */
 #include "loiter.h"
 
@@ -291,11 +291,11 @@ static inline BankEntry_ring_128 BankEntry_ring_128_appended(BankEntry_ring_128 
 
 typedef loiter_BankHistory BankHistory;
 
+typedef loiter_Sensing Sensing;
+
 typedef loiter_TurnLimits TurnLimits;
 
 typedef loiter_Limits Limits;
-
-typedef loiter_Sensing Sensing;
 
 typedef loiter_RoutePiece RoutePiece;
 
@@ -339,6 +339,8 @@ typedef loiter_ResponsePoint ResponsePoint;
 
 typedef loiter_EntrySearch EntrySearch;
 
+typedef loiter_Planning Planning;
+
 typedef loiter_LawCommand LawCommand;
 
 typedef loiter_Memory Memory;
@@ -361,6 +363,12 @@ typedef struct { real bank_deg, rate_deg_s; } Bank;
  * time, and `moment_s2` that of the same times the time.
  */
 typedef struct { real missing_s, moment_s2; } TurnDelay;
+
+/* A short step of a bank whose rate has a lag: its time, seconds, and the share of the present rate.
+ *
+ * `kept` is the share at the end of the step, `share` that on average in the change of bank.
+ */
+typedef struct { real time_s, kept, share; } RollStep;
 
 /* An aircraft at an instant, true or as measured by its sensors.
  *
@@ -609,6 +617,26 @@ static const WindCandidate NO_CANDIDATE = {REAL(0.0), 0, {REAL_INFINITY, 0, REAL
 /* The angle by which the other arc may change while one vanishes. */
 #define SWING REAL(1.5707963267948966) /* 0.5 * pi */
 #define STANDARD_GRAVITY_M_S2 REAL(9.80665)
+static const Clock FIRST_CLOCK = {-REAL_INFINITY, REAL(0.0), REAL_INFINITY, REAL(0.0), REAL_NAN, REAL_NAN};
+
+/* What is assumed until then, as if it had been measured for the last time, seconds: gusts of about 10 % of the
+ * airspeed, as the mean square change of each component in a second, and noise of 0.4 m/s; (m/s)^2.
+ */
+#define FIRST_NOISE REAL(0.16)
+
+/* How fast the velocity of the air changes is measured from its differences over this time, seconds, averaged over
+ * the second time.
+ */
+#define GUST_LAG_S REAL(1.0)
+#define FIRST_GUST REAL(0.6)
+#define ASSUMED_S REAL(1.0)
+static const AlongFlight CALM_ALONG = {REAL(0.0), REAL(0.0), REAL(3.0)};
+
+/* The ring of the last measurements. Where it would not cover the lag, those that follow each other sooner than
+ * this, seconds, are left out.
+ */
+#define SAMPLES 64
+static const Estimate NO_ESTIMATE = {-REAL_INFINITY, {REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0)}, REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), {REAL(1.0), REAL(0.0)}};
 static const Limits NO_LIMITS = {-1, false, REAL(0.0), REAL(0.0), {REAL(0.0), REAL(0.0), REAL(0.0)}, REAL(0.0), {REAL(1.0), REAL(1.0), REAL(1.0)}, REAL(0.0), 0, 0, REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)};
 
 /* The wind is planned as estimated, not as declared, where they differ by the first share of the airspeed, until
@@ -670,26 +698,6 @@ static const real_3 LAGUERRE_WEIGHTS = {REAL(0.711093009929173), REAL(0.27851773
 
 /* The gain of course corrections is reduced by this share of the delay: a part of it is not predicted exactly. */
 #define DELAY_SHARE REAL(1.0)
-
-/* What is assumed until then, as if it had been measured for the last time, seconds: gusts of about 10 % of the
- * airspeed, as the mean square change of each component in a second, and noise of 0.4 m/s; (m/s)^2.
- */
-#define FIRST_NOISE REAL(0.16)
-
-/* How fast the velocity of the air changes is measured from its differences over this time, seconds, averaged over
- * the second time.
- */
-#define GUST_LAG_S REAL(1.0)
-#define FIRST_GUST REAL(0.6)
-#define ASSUMED_S REAL(1.0)
-static const AlongFlight CALM_ALONG = {REAL(0.0), REAL(0.0), REAL(3.0)};
-
-/* The ring of the last measurements. Where it would not cover the lag, those that follow each other sooner than
- * this, seconds, are left out.
- */
-#define SAMPLES 64
-static const Estimate NO_ESTIMATE = {-REAL_INFINITY, {REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0)}, REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), {REAL(1.0), REAL(0.0)}};
-static const Clock FIRST_CLOCK = {-REAL_INFINITY, REAL(0.0), REAL_INFINITY, REAL(0.0), REAL_NAN, REAL_NAN};
 static const Plan NO_PLAN = {{0, {-2, REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(1.0)}, {-2, REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(1.0)}, {-2, REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(1.0)}, REAL(0.0), -2, REAL(0.0), REAL(1.0), REAL(1.0), REAL(0.0), REAL(0.0)}, REAL(0.0), REAL_INFINITY, REAL_INFINITY, -REAL_INFINITY};
 static const Leads NO_LEADS = {-1000000000, 0, 0, 0, 0, REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)};
 static const ResponsePoint NO_RESPONSE = {{REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)}, {REAL(0.0), REAL(0.0), REAL(0.0)}, REAL(0.0)};
@@ -708,9 +716,8 @@ static const EntrySearch NO_ENTRY_SEARCH = {0, {REAL(0.0), REAL(0.0), REAL(0.0),
 #define LARGEST_VALUE REAL(1000000000.0)
 #define LEAST_AIRSPEED_M_S REAL(0.1)
 
-/* Without a usable measurement the last command is kept for the first time, seconds. Until the next measurement
- * arrives the last one is extrapolated, but no longer than for the second; older ones are not averaged with new
- * ones.
+/* Until the next measurement arrives the last one is extrapolated, but no longer than this, seconds; older ones are
+ * not averaged with new ones.
  */
 #define EXTRAPOLATED_S REAL(3.0)
 
@@ -779,7 +786,7 @@ static const RoutePiece NO_PIECE = {-2, REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.
 /* Rates of the bank count in steps of so many half degrees per second. */
 #define RATE_STEPS REAL(4.0)
 
-/* In heavy gusts it rises in proportion to them, from this angle on and up to this multiple. */
+/* Gusts are heavy where they change the course by this angle in a second, radians. */
 #define HEAVY_GUSTS REAL(0.04)
 
 /* The last turn, where it is opposite to the circle, is aimed again from the present state as long as so much of
@@ -805,6 +812,9 @@ static const RoutePiece NO_PIECE = {-2, REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.
 #define UPDATE 4
 #define BETTER 3
 
+/* More steps than any search takes. */
+#define UNLIMITED 2147483647 /* 2 ** 31 - 1 */
+
 /* The answer of the kernel where there is no entry. */
 static const Entry NONE = {0, 0, REAL(0.0), REAL(0.0), REAL(0.0)};
 #define LONGEST_BEND REAL(0.1)
@@ -817,8 +827,7 @@ static const Entry NONE = {0, 0, REAL(0.0), REAL(0.0), REAL(0.0)};
 #define UPDATE_MARGIN REAL(0.25)
 #define SWITCH_MARGIN REAL(0.25)
 
-/* More steps than any search takes. */
-#define UNLIMITED 2147483647 /* 2 ** 31 - 1 */
+/* Without a usable measurement the last command is kept for this time, seconds. */
 #define BLIND_S REAL(1.0)
 
 /* On the circle it falls so far that course errors are corrected at this rate, 1/s, or at this multiple of that at
@@ -841,6 +850,8 @@ static const Entry NONE = {0, 0, REAL(0.0), REAL(0.0), REAL(0.0)};
 #define CALM_HOLD_GAIN REAL(0.35)
 #define ROUGH_HOLD REAL(0.02)
 #define ROUGH_AIR REAL(0.02)
+
+/* In heavy gusts it rises in proportion to them, up to this multiple. */
 #define HEAVY_GAIN REAL(1.5)
 
 /* The gains of course and crosstrack corrections, to be divided by the response time: the delay of a change of bank
@@ -1894,7 +1905,7 @@ static inline real time_of(const WindEntry *maneuver) {
 }
 
 /* The search with its result: the maneuver onto the circle, or that beside it if it is faster. */
-static inline void end_search(WindSearch *search) {
+static inline void wind_search_end_search(WindSearch *search) {
     const WindScene scene = search->scene;
     const EntryBeside beside = search->beside;
     WindEntry entry = wind_entry(&search->best, &scene);
@@ -1937,7 +1948,7 @@ static inline WindSearch begin_search(const WindProblem *problem) {
         }
     }
     if (search.best.side != 0) {
-        end_search(&search);
+        wind_search_end_search(&search);
         return search;
     }
     return search;
@@ -2527,7 +2538,7 @@ static inline CellVisit next_leaf(integer leaf) {
 static inline void next_stage(WindSearch *search) {
     const integer stage = search->stage + 1, side = -search->side;
     if (stage == ENDED) {
-        end_search(search);
+        wind_search_end_search(search);
         return;
     }
     CellVisit visit = FIRST_CELL;
@@ -2607,7 +2618,7 @@ static inline void refine_path(WindSearch *search) {
             next_stage(search);
             return;
         }
-        end_search(search);
+        wind_search_end_search(search);
         return;
     }
     if (search->stage <= COARSE_OTHER) {
@@ -3581,6 +3592,33 @@ static inline VehicleModel fly_as_declared(const VehicleModel *vehicle, real com
     return MAKE(VehicleModel){revision, bank_deg, rate_deg_s, known};
 }
 
+/* The average before the first measurement. */
+static inline AirAverage first_air(Rings *rings) {
+    const Difference near = MAKE(Difference){REAL(0.02), REAL(2.0) * FIRST_NOISE};
+    const Difference far = MAKE(Difference){GUST_LAG_S, REAL(2.0) * FIRST_NOISE + FIRST_GUST * GUST_LAG_S};
+    const AirSample_ring_64 recent = AirSample_ring_64_filled(&rings->AirSample_ring_64, MAKE(AirSample){REAL(0.0),
+            REAL(0.0), REAL(0.0), REAL(0.0)});
+    return MAKE(AirAverage){REAL(0.0), REAL(0.0), ASSUMED_S, near, far, CALM_ALONG, recent, SAMPLES - 2};
+}
+
+/* The observer before the first measurement. */
+static inline Observer first_observer(Rings *rings, real smoothing_s) {
+    return MAKE(Observer){smoothing_s, REAL(0.0), first_air(rings), NO_ESTIMATE};
+}
+
+/* The history of a bank that has always been this. */
+static inline BankHistory constant_history(Rings *rings, real bank_deg) {
+    const BankEntry_ring_128 unused = BankEntry_ring_128_filled(&rings->BankEntry_ring_128,
+            MAKE(BankEntry){-REAL_INFINITY, bank_deg, REAL(0.0)});
+    return MAKE(BankHistory){BankEntry_ring_128_with_last(unused, MAKE(BankEntry){REAL(0.0), bank_deg, REAL(0.0)})};
+}
+
+/* What is known before the first measurement, at a bank. */
+static inline Sensing first_sensing(Rings *rings, real smoothing_s, real bank_deg) {
+    return MAKE(Sensing){FIRST_CLOCK, first_observer(rings, smoothing_s), constant_history(rings, bank_deg),
+            NO_ESTIMATE, REAL(0.0), REAL(0.0), REAL(0.0), false};
+}
+
 /* The velocity of the air past the circle to plan with, and whether it differs from the declared one.
  *
  * It is the declared one, unless the wind is found to differ from that by more than gusts do.
@@ -3754,20 +3792,20 @@ static inline real clip(real value, real limit) {
     return value > limit ? limit : value < -limit ? -limit : value;
 }
 
-/* The bank after a short time under a constant command; exact without a lag of the bank rate. */
-static inline Bank roll_after(RollValues roll, Bank now, real command_deg, real time_s) {
-    if (roll.lag_s == REAL(0.0) || time_s == REAL(0.0)) {
-        return MAKE(Bank){bank_after(roll.time_s, roll.rate_deg_s, now.bank_deg, command_deg, time_s),
-                now.rate_deg_s};
-    }
-    const real kept = real_exp(-time_s / roll.lag_s);
-    const real wanted_deg_s = (command_deg - now.bank_deg - REAL(0.5) * time_s * now.rate_deg_s) / roll.time_s;
-    const real rate_deg_s = clip(wanted_deg_s + kept * (now.rate_deg_s - wanted_deg_s), roll.rate_deg_s);
-    const real lags = time_s / roll.lag_s;
+/* The step of a time above 0. */
+static inline RollStep roll_step(RollValues roll, real time_s) {
+    const real kept = real_exp(-time_s / roll.lag_s), lags = time_s / roll.lag_s;
     /* The difference of large numbers for a short time, of which this is the series. */
-    const real share = lags < SHORT_LAGS ? REAL(0.5) - lags / REAL(12.0) : REAL(1.0) / lags - kept / (REAL(1.0) -
-            kept);
-    return MAKE(Bank){now.bank_deg + time_s * (rate_deg_s + share * (now.rate_deg_s - rate_deg_s)), rate_deg_s};
+    return MAKE(RollStep){time_s, kept, lags < SHORT_LAGS ? REAL(0.5) - lags / REAL(12.0) : REAL(1.0) / lags - kept
+            / (REAL(1.0) - kept)};
+}
+
+/* The bank after a step under a constant command, where its rate has a lag. */
+static inline Bank lagging_after(RollValues roll, RollStep step, Bank now, real command_deg) {
+    const real wanted_deg_s = (command_deg - now.bank_deg - REAL(0.5) * step.time_s * now.rate_deg_s) / roll.time_s;
+    const real rate_deg_s = clip(wanted_deg_s + step.kept * (now.rate_deg_s - wanted_deg_s), roll.rate_deg_s);
+    const real change_deg = step.time_s * (rate_deg_s + step.share * (now.rate_deg_s - rate_deg_s));
+    return MAKE(Bank){now.bank_deg + change_deg, rate_deg_s};
 }
 
 /* The delay of a small change of bank from `beyond_deg` beyond the target, in degrees of bank, not in turn rates.
@@ -3795,6 +3833,7 @@ static inline TurnDelay lagging_delay(RollValues roll, Bank now, real target_deg
     now = MAKE(Bank){now.bank_deg, clip(now.rate_deg_s, roll.rate_deg_s)};
     const real dt = (real_fabs(target_deg - now.bank_deg) / roll.rate_deg_s + SETTLING * (roll.time_s + braking_s))
             / (real)STEPS;
+    const RollStep half_step = roll_step(roll, REAL(0.5) * dt), step = roll_step(roll, dt);
     while (left > 0) {
         real change_deg = gain * (target_deg - now.bank_deg) - braking_s * now.rate_deg_s;
         is_limited = real_fabs(now.bank_deg + change_deg) > limit_deg;
@@ -3802,10 +3841,10 @@ static inline TurnDelay lagging_delay(RollValues roll, Bank now, real target_deg
                 small_deg) {
             break;
         }
-        const Bank half = roll_after(roll, now, clip(now.bank_deg + change_deg, limit_deg), REAL(0.5) * dt);
+        const Bank half = lagging_after(roll, half_step, now, clip(now.bank_deg + change_deg, limit_deg));
         /* The demand at half time counts for the whole step. */
         change_deg = gain * (target_deg - half.bank_deg) - braking_s * half.rate_deg_s;
-        const Bank after = roll_after(roll, now, clip(half.bank_deg + change_deg, limit_deg), dt);
+        const Bank after = lagging_after(roll, step, now, clip(half.bank_deg + change_deg, limit_deg));
         const real part_s = dt * (tangent - real_tan(REAL(0.5) * (now.bank_deg + after.bank_deg) *
                 REAL(0.017453292519943295)));
         missing_s = missing_s + part_s;
@@ -3880,43 +3919,22 @@ static inline Limits limits_of(const Settings *settings, const VehicleModel *veh
             (REAL(1.0) / planned_m + REAL(1.0) / R), lead_s + DELAY_SHARE * known.delay_s};
 }
 
-/* The average before the first measurement. */
-static inline AirAverage first_air(Rings *rings) {
-    const Difference near = MAKE(Difference){REAL(0.02), REAL(2.0) * FIRST_NOISE};
-    const Difference far = MAKE(Difference){GUST_LAG_S, REAL(2.0) * FIRST_NOISE + FIRST_GUST * GUST_LAG_S};
-    const AirSample_ring_64 recent = AirSample_ring_64_filled(&rings->AirSample_ring_64, MAKE(AirSample){REAL(0.0),
-            REAL(0.0), REAL(0.0), REAL(0.0)});
-    return MAKE(AirAverage){REAL(0.0), REAL(0.0), ASSUMED_S, near, far, CALM_ALONG, recent, SAMPLES - 2};
-}
-
-/* The observer before the first measurement. */
-static inline Observer first_observer(Rings *rings, real smoothing_s) {
-    return MAKE(Observer){smoothing_s, REAL(0.0), first_air(rings), NO_ESTIMATE};
-}
-
-/* The history of a bank that has always been this. */
-static inline BankHistory constant_history(Rings *rings, real bank_deg) {
-    const BankEntry_ring_128 unused = BankEntry_ring_128_filled(&rings->BankEntry_ring_128,
-            MAKE(BankEntry){-REAL_INFINITY, bank_deg, REAL(0.0)});
-    return MAKE(BankHistory){bank_deg, BankEntry_ring_128_with_last(unused, MAKE(BankEntry){REAL(0.0), bank_deg,
-            REAL(0.0)})};
-}
-
 /* No path. */
 static inline GivenPath no_path(Rings *rings) {
     return MAKE(GivenPath){PathPiece_ring_12_filled(&rings->PathPiece_ring_12, MAKE(PathPiece){ABSENT, REAL(0.0),
             REAL(1.0)}), 0, 0, REAL(1.0), REAL(0.0)};
 }
 
+/* The memory before there is a plan. */
+static inline Planning first_planning(Rings *rings) {
+    return MAKE(Planning){NO_PLAN, no_path(rings), NO_LEADS, NO_RESPONSE, NO_ENTRY_SEARCH, false};
+}
+
 /* The memory before the first measurement, with wings level. */
 static inline Memory first_memory(Rings *rings, const Settings *settings, const VehicleModel *vehicle) {
-    const Limits limits = limits_of(settings, vehicle, &NO_LIMITS);
-    const Observer observer = first_observer(rings, settings->smoothing_s);
-    const BankHistory history = constant_history(rings, vehicle->bank_deg);
-    return MAKE(Memory){MAKE(Sensing){FIRST_CLOCK, observer, history, limits, NO_ESTIMATE, REAL(0.0), REAL(0.0),
-            REAL(0.0), false}, NO_PLAN, no_path(rings), NO_LEADS, NO_RESPONSE, NO_ENTRY_SEARCH, REAL(0.0),
-            MAKE(LawCommand){REAL(0.0), REAL(0.0), NO_DATA, REAL_NAN, settings->side, NO_DATA, REAL_NAN},
-            REAL(0.0)};
+    return MAKE(Memory){first_sensing(rings, settings->smoothing_s, vehicle->bank_deg), limits_of(settings,
+            vehicle, &NO_LIMITS), first_planning(rings), REAL(0.0), MAKE(LawCommand){REAL(0.0), REAL(0.0), NO_DATA,
+            REAL_NAN, settings->side, NO_DATA, REAL_NAN}, REAL(0.0)};
 }
 
 /* The route by a clock that has jumped. */
@@ -3937,7 +3955,7 @@ static inline void plan_by_clock(Plan *plan, real jump_s) {
 }
 
 /* The clock `dt` seconds later. */
-static inline Clock clock_advance(const Clock *clock, real dt) {
+static inline Clock advance_clock(const Clock *clock, real dt) {
     const real time_s = clock->time_s, since_s = clock->since_s, gap_s = clock->gap_s, jump_s =
             clock->jump_s, first_s = clock->first_s, latest_s = clock->latest_s;
     return MAKE(Clock){time_s, since_s + dt, gap_s, jump_s, first_s, latest_s};
@@ -3956,9 +3974,9 @@ static inline BankHistory record_bank(BankHistory history, real bank_deg, real d
             (last.bank_deg + bank_deg)};
     if (entry.end_s - entries->at[126].end_s > REAL(2.0) * covered_s / (real)ENTRIES || entries->at[0].end_s ==
             -REAL_INFINITY) {
-        return MAKE(BankHistory){bank_deg, BankEntry_ring_128_appended(entries, entry)};
+        return MAKE(BankHistory){BankEntry_ring_128_appended(entries, entry)};
     }
-    return MAKE(BankHistory){bank_deg, BankEntry_ring_128_with_last(entries, entry)};
+    return MAKE(BankHistory){BankEntry_ring_128_with_last(entries, entry)};
 }
 
 /* Whether the time of a measurement is within `LATEST_S`, and all other numbers together within `LARGEST_VALUE`. */
@@ -3976,6 +3994,11 @@ static inline bool is_plausible(const State *state) {
 /* Whether a measurement is plausible and of an aircraft in flight, faster than `LEAST_AIRSPEED_M_S`. */
 static inline bool is_usable(const State *state) {
     return is_plausible(state) && state->airspeed_m_s > LEAST_AIRSPEED_M_S;
+}
+
+/* The bank at the end of the last step. */
+static inline real present_deg(BankHistory history) {
+    return history.entries->at[127].bank_deg;
 }
 
 /* Turn rate of a coordinated turn, radians per second, with the sign of the bank: g tan(bank)/V. */
@@ -4103,7 +4126,7 @@ static inline real bank_within(BankHistory history, integer index, real time_s) 
 /* The bank `delay_s` seconds ago. */
 static inline real delayed_deg(BankHistory history, real delay_s) {
     if (delay_s <= REAL(0.0)) {
-        return history.current_deg;
+        return present_deg(history);
     }
     const real then_s = history.entries->at[127].end_s - delay_s;
     return bank_within(history, index_at(history, then_s), then_s);
@@ -4299,7 +4322,7 @@ static inline State remove_bias(const VehicleEstimates *known, const State *stat
 /* The mean bank over the last `delay_s` seconds. */
 static inline real mean_deg(BankHistory history, real delay_s) {
     if (delay_s <= REAL(0.0)) {
-        return history.current_deg;
+        return present_deg(history);
     }
     const BankEntry last = history.entries->at[127];
     const real then_s = last.end_s - delay_s;
@@ -4319,49 +4342,47 @@ static inline Estimate estimate_at_present(const Estimate *estimate, BankHistory
     const Turning turning = estimate->turning;
     const real error_deg = bank_deg - delayed_deg(history, delay_s);
     const real mean_rate = turn_rate_at(turning, mean_deg(history, delay_s) + error_deg, V);
-    const real present_deg = history.current_deg + error_deg;
-    const real present_rate = turn_rate_at(turning, present_deg, V);
+    const real now_deg = present_deg(history) + error_deg;
+    const real present_rate = turn_rate_at(turning, now_deg, V);
     /* The slip changes with the turn rate, and with it the direction of flight. */
     pose = _rotated(pose, turning.lead_s * (mean_rate - last_rate));
     pose = constant_turn(pose, V, mean_rate, delay_s, MAKE(real_2){east, north});
     pose = _rotated(pose, turning.lead_s * (present_rate - mean_rate));
-    return MAKE(Estimate){time_s + delay_s, pose, V, present_rate, present_deg, east, north, turning};
+    return MAKE(Estimate){time_s + delay_s, pose, V, present_rate, now_deg, east, north, turning};
 }
 
 /* What is known at a measurement, `step_s` seconds after the last.
  *
- * Telemetry may be slower than the steps: until the next measurement, but no longer than `EXTRAPOLATED_S`, the last
- * estimate is extrapolated with the modelled bank.
+ * `smoothing_s` is the shortest smoothing time, `covered_s` what the history of banks has to cover. Telemetry may
+ * be slower than the steps: until the next measurement, but no longer than `EXTRAPOLATED_S`, the last estimate is
+ * extrapolated with the modelled bank.
  */
-static inline void sense(Rings *rings, Sensing *sensing, const Settings *settings, const VehicleModel *vehicle,
-        const State *measurement, real step_s) {
+static inline void sense(Rings *rings, Sensing *sensing, const VehicleModel *vehicle, const State *measurement, real
+        step_s, real smoothing_s, real covered_s) {
     Clock clock = sensing->clock;
     Observer observer = sensing->observer;
     BankHistory history = sensing->history;
-    Limits limits = sensing->limits;
     Estimate present = sensing->present;
     real elapsed_s = sensing->elapsed_s;
     const real error_deg = sensing->model_error_deg;
     const real rate_deg_s = vehicle->bank_rate_deg_s;
     if (step_s > REAL(0.0)) {
-        clock = clock_advance(&clock, step_s);
+        clock = advance_clock(&clock, step_s);
         elapsed_s = elapsed_s + step_s;
-        history = record_bank(history, vehicle->bank_deg, step_s, settings->covered_s);
+        history = record_bank(history, vehicle->bank_deg, step_s, covered_s);
     }
     if (!is_usable(measurement)) {
-        *sensing = MAKE(Sensing){clock, observer, history, limits, present, rate_deg_s, elapsed_s, error_deg,
-                false};
+        *sensing = MAKE(Sensing){clock, observer, history, present, rate_deg_s, elapsed_s, error_deg, false};
         return;
     }
     if (measurement->time_s == clock.time_s) {
         if (present.airspeed_m_s == REAL(0.0) || clock.since_s > EXTRAPOLATED_S) {
-            *sensing = MAKE(Sensing){clock, observer, history, limits, present, rate_deg_s, elapsed_s, error_deg,
-                    false};
+            *sensing = MAKE(Sensing){clock, observer, history, present, rate_deg_s, elapsed_s, error_deg, false};
             return;
         }
-        const Estimate stored_1 = estimate_with_bank(&present, history.current_deg + error_deg);
+        const Estimate stored_1 = estimate_with_bank(&present, present_deg(history) + error_deg);
         present = estimate_after(&stored_1, elapsed_s);
-        *sensing = MAKE(Sensing){clock, observer, history, limits, present, rate_deg_s, REAL(0.0), error_deg, true};
+        *sensing = MAKE(Sensing){clock, observer, history, present, rate_deg_s, REAL(0.0), error_deg, true};
         return;
     }
     const bool is_first = clock.time_s == -REAL_INFINITY;
@@ -4369,8 +4390,7 @@ static inline void sense(Rings *rings, Sensing *sensing, const Settings *setting
     clock = check_stamp_2.a0;
     const bool is_new = check_stamp_2.a1;
     if (!is_new) {
-        *sensing = MAKE(Sensing){clock, observer, history, limits, present, rate_deg_s, elapsed_s, error_deg,
-                false};
+        *sensing = MAKE(Sensing){clock, observer, history, present, rate_deg_s, elapsed_s, error_deg, false};
         return;
     }
     if (is_first) {
@@ -4379,23 +4399,39 @@ static inline void sense(Rings *rings, Sensing *sensing, const Settings *setting
     if (clock.jump_s != REAL(0.0) || clock.gap_s > EXTRAPOLATED_S) {
         observer = restart(&observer);
     }
-    if (vehicle->revision != limits.revision) {
-        limits = limits_of(settings, vehicle, &limits);
-    }
     const VehicleEstimates known = vehicle->estimates;
     const Turning turning = MAKE(Turning){known.turn_ratio, known.course_lead_s};
     const real bank_deg = delayed_deg(history, known.delay_s);
     const State stored_3 = remove_bias(&known, measurement);
-    observer = observe(rings, &observer, &stored_3, bank_deg, settings->smoothing_s, turning);
+    observer = observe(rings, &observer, &stored_3, bank_deg, smoothing_s, turning);
     present = estimate_at_present(&observer.estimate, history, known.delay_s);
-    *sensing = MAKE(Sensing){clock, observer, history, limits, present, rate_deg_s, REAL(0.0), present.bank_deg -
-            history.current_deg, true};
+    *sensing = MAKE(Sensing){clock, observer, history, present, rate_deg_s, REAL(0.0), present.bank_deg -
+            present_deg(history), true};
     return;
 }
 
 /* The search without an aim. */
 static inline void end_entry_search(EntrySearch *search) {
     search->aim = NOTHING;
+    return;
+}
+
+/* The memory without a search. */
+static inline void plan_end_search(Planning *planning) {
+    end_entry_search(&planning->search);
+    return;
+}
+
+/* Whether delays of changes of bank are others than before. */
+static inline bool is_other_roll(const Limits *limits, const Limits *before) {
+    const RollValues a = limits->roll, b = before->roll;
+    const bool same = a.time_s == b.time_s && a.rate_deg_s == b.rate_deg_s && a.lag_s == b.lag_s;
+    return !(same && limits->limit_deg == before->limit_deg);
+}
+
+/* The memory without delays of changes of bank, which are then computed anew. */
+static inline void forget_leads(Planning *planning) {
+    planning->leads = NO_LEADS;
     return;
 }
 
@@ -4564,34 +4600,27 @@ static inline EntrySearch search_from(const Settings *settings, const Limits *li
     return changed_1;
 }
 
-/* The memory with the plan to hold the circle where the flight begins on it, otherwise with a search if it is due.
+/* The plan to hold the circle where the flight begins on it, otherwise a search if it is due.
  *
  * The fastest entry begins where a command takes effect, which depends on the bank and the first turn. So that is
  * found first, as it would be with wings level.
  */
-static inline void begin_first_plan(Memory *memory, const Settings *settings) {
-    const Limits limits = memory->sensing.limits;
-    const Estimate present = memory->sensing.present;
+static inline void begin_first_plan(Planning *planning, const Settings *settings, const Limits *limits, const
+        Sensing *sensing) {
+    const Estimate present = sensing->present;
     const RelativeState stored_1 = relative_state(settings, &present);
-    memory->plan = plan_on_circle(settings, &limits, &memory->plan, &stored_1);
-    if (memory->plan.route.side != 0) {
-        end_entry_search(&memory->search);
+    planning->plan = plan_on_circle(settings, limits, &planning->plan, &stored_1);
+    if (planning->plan.route.side != 0) {
+        plan_end_search(planning);
         return;
     }
-    if (memory->search.aim != NOTHING || !is_search_due(&memory->sensing.clock, &memory->plan)) {
+    if (planning->search.aim != NOTHING || !is_search_due(&sensing->clock, &planning->plan)) {
         return;
     }
-    const Estimate later = estimate_after(&present, lead_s(&limits, present.bank_deg, REAL(0.0)));
+    const Estimate later = estimate_after(&present, lead_s(limits, present.bank_deg, REAL(0.0)));
     const RelativeState stored_2 = relative_state(settings, &later);
-    memory->search = search_from(settings, &limits, FIRST_TURN, &stored_2, true);
+    planning->search = search_from(settings, limits, FIRST_TURN, &stored_2, true);
     return;
-}
-
-/* Whether delays of changes of bank are others than before. */
-static inline bool is_other_roll(const Limits *limits, const Limits *before) {
-    const RollValues a = limits->roll, b = before->roll;
-    const bool same = a.time_s == b.time_s && a.rate_deg_s == b.rate_deg_s && a.lag_s == b.lag_s;
-    return !(same && limits->limit_deg == before->limit_deg);
 }
 
 /* The control of the last piece before the circle; `ABSENT` on the circle. */
@@ -4751,44 +4780,29 @@ static inline GivenPath_Route next_on(GivenPath path, const Route *route) {
     return MAKE(GivenPath_Route){path, changed_2};
 }
 
-/* The observer that measures the gusts along the flight anew. */
-static inline Observer restart_gusts(const Observer *observer) {
-    AirAverage changed_1 = observer->air;
-    changed_1.along = CALM_ALONG;
-    Observer changed_2 = (*observer);
-    changed_2.air = changed_1;
-    return changed_2;
-}
-
-/* What is known, without the gusts: the turns before the circle look like gusts. */
-static inline void measure_gusts_anew(Sensing *sensing) {
-    sensing->observer = restart_gusts(&sensing->observer);
-    return;
-}
-
 /* The time from the end of the current piece to the circle. */
 static inline real later_s(const Route *route) {
     return route->second.time_s + route->third.time_s + route->more_s;
 }
 
-/* The memory with the plan at the response: without the pieces that are complete when a command takes effect.
+/* The plan at the response: without the pieces that are complete when a command takes effect.
  *
  * A change of bank takes effect with a delay; from then on the aircraft turns like one that banks instantly.
  */
-static inline void advance_plan(Memory *memory, const Settings *settings) {
-    const Limits limits = memory->sensing.limits;
-    const Estimate estimate = memory->sensing.present;
-    Leads leads = memory->leads;
-    Route route = memory->plan.route;
-    real left_s = memory->plan.remaining_s, join_s = memory->plan.join_s, planned_join_s =
-            memory->plan.planned_join_s;
-    const real searched_s = memory->plan.searched_s;
-    GivenPath path = memory->path;
+static inline void advance_plan(Planning *planning, const Settings *settings, const Limits *limits, const Sensing
+        *sensing) {
+    const Estimate estimate = sensing->present;
+    Leads leads = planning->leads;
+    GivenPath path = planning->path;
+    Route route = planning->plan.route;
+    real left_s = planning->plan.remaining_s, join_s = planning->plan.join_s, planned_join_s =
+            planning->plan.planned_join_s;
+    const real searched_s = planning->plan.searched_s;
     /* Pieces are dropped that are complete, in a plan of its own at most three. */
     RelativeState state;
     real early_s;
     while (true) {
-        leads = leads_to(&limits, &leads, MAKE(Bank){estimate.bank_deg, memory->sensing.bank_rate_deg_s}, &route);
+        leads = leads_to(limits, &leads, MAKE(Bank){estimate.bank_deg, sensing->bank_rate_deg_s}, &route);
         const Estimate stored_1 = turning_more(&estimate, leads.more);
         const Estimate later = estimate_after(&stored_1, leads.current_s);
         const RelativeState stored_2 = relative_state(settings, &later);
@@ -4803,11 +4817,10 @@ static inline void advance_plan(Memory *memory, const Settings *settings) {
         route = next_on_3.a1;
         left_s = route.current.time_s;
     }
+    bool has_joined = planning->has_joined;
     if (is_holding(&route)) {
         early_s = REAL(0.0);
-        if (!is_holding(&memory->plan.route)) {
-            measure_gusts_anew(&memory->sensing);
-        }
+        has_joined = has_joined || !is_holding(&planning->plan.route);
     } else {
         join_s = state.time_s + left_s + later_s(&route);
         if (path.total > 0) {
@@ -4818,10 +4831,11 @@ static inline void advance_plan(Memory *memory, const Settings *settings) {
             planned_join_s = join_s;
         }
     }
-    memory->path = path;
-    memory->plan = MAKE(Plan){route, left_s, join_s, planned_join_s, searched_s};
-    memory->leads = leads;
-    memory->response = MAKE(ResponsePoint){state, offset_of(&route, &state, settings->radius_m), early_s};
+    planning->path = path;
+    planning->plan = MAKE(Plan){route, left_s, join_s, planned_join_s, searched_s};
+    planning->leads = leads;
+    planning->response = MAKE(ResponsePoint){state, offset_of(&route, &state, settings->radius_m), early_s};
+    planning->has_joined = has_joined;
     return;
 }
 
@@ -4908,17 +4922,17 @@ static inline void plan_along(Plan *plan, const Route *route, real join_s) {
  * state; it is the tightest one where that is too wide. In heavy gusts the last plan is followed: the aim would
  * move with them.
  */
-static inline void aim_again(Memory *memory, const Settings *settings) {
-    const Limits limits = memory->sensing.limits;
-    const RelativeState state = memory->response.state;
-    const Plan plan = memory->plan;
-    Route route = memory->plan.route;
+static inline void aim_again(Planning *planning, const Settings *settings, const Limits *limits, const Sensing
+        *sensing) {
+    const RelativeState state = planning->response.state;
+    const Plan plan = planning->plan;
+    Route route = planning->plan.route;
     const bool is_still = route.wind_east_m_s == REAL(0.0) && route.wind_north_m_s == REAL(0.0);
-    const bool is_calm = along_roughness(&memory->sensing.observer) <= HEAVY_GUSTS;
+    const bool is_calm = along_roughness(&sensing->observer) <= HEAVY_GUSTS;
     if (is_holding(&route) || route.third.u != ABSENT || !(is_still && is_calm && reverses(&route))) {
         return;
     }
-    const real circle_m = settings->radius_m + limits.reversal_m;
+    const real circle_m = settings->radius_m + limits->reversal_m;
     if (route.second.u != ABSENT) {
         if (route.current.u != 0) {
             return;
@@ -4926,24 +4940,24 @@ static inline void aim_again(Memory *memory, const Settings *settings) {
         with_last_line(&route, &state, circle_m);
     } else {
         const real radius_m = last_radius_m(&route, &state, circle_m);
-        if (!(REAL(0.0) < radius_m && radius_m < WIDEST_AIMED * limits.turns.planned_m)) {
+        if (!(REAL(0.0) < radius_m && radius_m < WIDEST_AIMED * limits->turns.planned_m)) {
             return;
         }
-        with_last_turn(&route, &state, max_real(radius_m, limits.turns.tightest_m));
+        with_last_turn(&route, &state, max_real(radius_m, limits->turns.tightest_m));
         const real missed_m = length(route.current.end_x, route.current.end_y) - circle_m;
-        if (real_fabs(missed_m) > LOST_OFFSET * limits.turns.planned_m) {
+        if (real_fabs(missed_m) > LOST_OFFSET * limits->turns.planned_m) {
             return;
         }
     }
     const real left_s = route.current.time_s, whole_s = route.current.time_s + later_s(&route);
     const real later = whole_s - plan.remaining_s - later_s(&plan.route);
-    if (left_s < AIMED_LEFT_S + memory->response.early_s || real_fabs(later) > AIM_CHANGE_S) {
+    if (left_s < AIMED_LEFT_S + planning->response.early_s || real_fabs(later) > AIM_CHANGE_S) {
         return;
     }
     Plan changed_1 = plan;
     plan_along(&changed_1, &route, state.time_s + whole_s);
-    memory->plan = changed_1;
-    advance_plan(memory, settings);
+    planning->plan = changed_1;
+    advance_plan(planning, settings, limits, sensing);
     return;
 }
 
@@ -4954,33 +4968,33 @@ static inline void searched_at(Plan *plan, real time_s) {
 }
 
 /* The memory with a search for a plan from a state, and when it began. */
-static inline void begin_plan_search(Memory *memory, const Settings *settings, integer aim, const RelativeState
-        *state) {
-    const bool reversing = memory->plan.route.side == 0 || reverses(&memory->plan.route);
-    memory->search = search_from(settings, &memory->sensing.limits, aim, state, reversing);
-    searched_at(&memory->plan, memory->sensing.clock.time_s);
+static inline void begin_plan_search(Planning *planning, const Settings *settings, const Limits *limits, integer
+        aim, const RelativeState *state, real now_s) {
+    const bool reversing = planning->plan.route.side == 0 || reverses(&planning->plan.route);
+    planning->search = search_from(settings, limits, aim, state, reversing);
+    searched_at(&planning->plan, now_s);
     return;
 }
 
 /* The memory with a search for another plan, if that is due. */
-static inline void reconsider(Memory *memory, const Settings *settings) {
-    const bool is_given = memory->path.total > 0;
-    if (is_given || memory->search.aim != NOTHING || !is_search_due(&memory->sensing.clock, &memory->plan)) {
+static inline void reconsider(Planning *planning, const Settings *settings, const Limits *limits, const Sensing
+        *sensing) {
+    const bool is_given = planning->path.total > 0;
+    if (is_given || planning->search.aim != NOTHING || !is_search_due(&sensing->clock, &planning->plan)) {
         return;
     }
-    aim_again(memory, settings);
-    const Limits limits = memory->sensing.limits;
-    const PathOffset offset = memory->response.offset;
-    const Plan plan = memory->plan;
-    const real r = limits.turns.planned_m, V = limits.turns.airspeed_m_s;
+    aim_again(planning, settings, limits, sensing);
+    const PathOffset offset = planning->response.offset;
+    const Plan plan = planning->plan;
+    const real r = limits->turns.planned_m, V = limits->turns.airspeed_m_s;
     const bool holding = is_holding(&plan.route);
     const bool is_lost = real_fabs(offset.crosstrack) > LOST_OFFSET * r || real_fabs(offset.course_error) >
             LOST_COURSE;
     /* A plan for a wind that differs so much from the present one means nothing. */
-    const real east = limits.wind_east_m_s - plan.route.wind_east_m_s, north = limits.wind_north_m_s -
+    const real east = limits->wind_east_m_s - plan.route.wind_east_m_s, north = limits->wind_north_m_s -
             plan.route.wind_north_m_s;
     if (is_lost || (!holding && length(east, north) > WIND_DIFFERS * V)) {
-        begin_plan_search(memory, settings, ANY, &memory->response.state);
+        begin_plan_search(planning, settings, limits, ANY, &planning->response.state, sensing->clock.time_s);
         return;
     }
     if (holding) {
@@ -4988,36 +5002,48 @@ static inline void reconsider(Memory *memory, const Settings *settings) {
     }
     const real later_m = real_fabs(plan.join_s - plan.planned_join_s) * V;
     const bool deviates = max_real(real_fabs(offset.crosstrack), later_m) > DEVIATION * r;
-    const bool is_still = limits.wind_east_m_s == REAL(0.0) && limits.wind_north_m_s == REAL(0.0);
-    begin_plan_search(memory, settings, deviates || is_still ? UPDATE : BETTER, &memory->response.state);
+    const bool is_still = limits->wind_east_m_s == REAL(0.0) && limits->wind_north_m_s == REAL(0.0);
+    const integer aim = deviates || is_still ? UPDATE : BETTER;
+    begin_plan_search(planning, settings, limits, aim, &planning->response.state, sensing->clock.time_s);
+    return;
+}
+
+/* The plan from the present state on, and a search begun for another if it is due. */
+static inline void update_plan(Planning *planning, const Settings *settings, const Limits *limits, const Sensing
+        *sensing) {
+    const Clock clock = sensing->clock;
+    if (clock.since_s == REAL(0.0) && clock.jump_s != REAL(0.0)) {
+        plan_by_clock(&planning->plan, clock.jump_s);
+        plan_end_search(planning);
+    }
+    if (planning->plan.route.side == 0) {
+        begin_first_plan(planning, settings, limits, sensing);
+    }
+    if (planning->plan.route.side == 0) {
+        return;
+    }
+    advance_plan(planning, settings, limits, sensing);
+    reconsider(planning, settings, limits, sensing);
     return;
 }
 
 /* The memory after a measurement: what is known, the present plan, and a search begun for another if it is due. */
 static APART void prepare(Rings *rings, Memory *memory, const Settings *settings, const VehicleModel *vehicle, const
         State *measurement) {
-    const Limits before = memory->sensing.limits;
-    sense(rings, &memory->sensing, settings, vehicle, measurement, memory->step_s);
+    const real smoothing_s = settings->smoothing_s, covered_s = settings->covered_s;
+    sense(rings, &memory->sensing, vehicle, measurement, memory->step_s, smoothing_s, covered_s);
     if (!memory->sensing.is_known) {
-        end_entry_search(&memory->search);
+        plan_end_search(&memory->planning);
         return;
     }
-    const Clock clock = memory->sensing.clock;
-    if (clock.since_s == REAL(0.0) && clock.jump_s != REAL(0.0)) {
-        plan_by_clock(&memory->plan, clock.jump_s);
-        end_entry_search(&memory->search);
+    if (vehicle->revision != memory->limits.revision) {
+        const Limits limits = limits_of(settings, vehicle, &memory->limits);
+        if (is_other_roll(&limits, &memory->limits)) {
+            forget_leads(&memory->planning);
+        }
+        memory->limits = limits;
     }
-    if (memory->plan.route.side == 0) {
-        begin_first_plan(memory, settings);
-    }
-    if (memory->plan.route.side == 0) {
-        return;
-    }
-    if (is_other_roll(&memory->sensing.limits, &before)) {
-        memory->leads = NO_LEADS;
-    }
-    advance_plan(memory, settings);
-    reconsider(memory, settings);
+    update_plan(&memory->planning, settings, &memory->limits, &memory->sensing);
     return;
 }
 
@@ -5193,47 +5219,48 @@ static inline bool is_better(const PlannedEntry *entry, const Plan *plan, TurnLi
  *
  * After the search for the first turn the one for the first plan follows.
  */
-static APART void take_entry(Memory *memory, const Settings *settings) {
-    const integer aim = memory->search.aim;
-    const RelativeState state = memory->search.state;
-    const PlannedEntry entry = found_entry(&memory->search);
-    end_entry_search(&memory->search);
+static APART void take_entry(Planning *planning, const Settings *settings, const Limits *limits, const Sensing
+        *sensing) {
+    const integer aim = planning->search.aim;
+    const RelativeState state = planning->search.state;
+    const PlannedEntry entry = found_entry(&planning->search);
+    plan_end_search(planning);
     if (entry.side == 0) {
         return;
     }
-    const Limits limits = memory->sensing.limits;
-    const Estimate present = memory->sensing.present;
+    const Estimate present = sensing->present;
     if (aim == FIRST_TURN) {
         const integer_3 controls_1 = controls(entry.word);
         const integer first = controls_1.a0;
-        const real bank_deg = first != ABSENT ? (real)-first * limits.limit_deg : (real)entry.side *
-                limits.hold_deg;
-        const Estimate later = estimate_after(&present, lead_s(&limits, present.bank_deg, bank_deg));
+        const real bank_deg = first != ABSENT ? (real)-first * limits->limit_deg : (real)entry.side *
+                limits->hold_deg;
+        const Estimate later = estimate_after(&present, lead_s(limits, present.bank_deg, bank_deg));
         const RelativeState stored_2 = relative_state(settings, &later);
-        begin_plan_search(memory, settings, ANY, &stored_2);
+        begin_plan_search(planning, settings, limits, ANY, &stored_2, sensing->clock.time_s);
         return;
     }
     /* How much later it is than where the search began. */
-    const real passed_s = aim == ANY ? REAL(0.0) : memory->response.state.time_s - state.time_s;
-    if (aim != ANY && !is_better(&entry, &memory->plan, limits.turns, aim == UPDATE, passed_s)) {
+    const real passed_s = aim == ANY ? REAL(0.0) : planning->response.state.time_s - state.time_s;
+    if (aim != ANY && !is_better(&entry, &planning->plan, limits->turns, aim == UPDATE, passed_s)) {
         return;
     }
     const Route route = route_of(&state, &entry);
     const real join_s = state.time_s + duration_s(&entry);
-    const Plan plan = MAKE(Plan){route, route.current.time_s, join_s, join_s, memory->plan.searched_s};
-    memory->plan = plan;
-    advance_plan(memory, settings);
+    const Plan plan = MAKE(Plan){route, route.current.time_s, join_s, join_s, planning->plan.searched_s};
+    planning->plan = plan;
+    advance_plan(planning, settings, limits, sensing);
     return;
 }
 
 /* The memory after at most `steps` more steps of its search, with the plan that this has found. */
-static inline void continue_search(Memory *memory, const Settings *settings, integer steps) {
+static inline void continue_search(Planning *planning, const Settings *settings, const Limits *limits, const Sensing
+        *sensing, integer steps) {
     integer left = steps;
-    while (memory->search.aim != NOTHING && left > 0) {
-        advance_entry_search(&memory->search, left);
-        left = memory->search.in_air.left;
-        if (is_complete(&memory->search)) {
-            take_entry(memory, settings);
+    while (planning->search.aim != NOTHING && left > 0) {
+        advance_entry_search(&planning->search, left);
+        left = planning->search.in_air.left;
+        if (is_complete(&planning->search)) {
+            take_entry(planning, settings, limits, sensing);
         }
     }
     return;
@@ -5247,19 +5274,43 @@ static inline real turn_rate_deg_s(const VehicleEstimates *known, real bank_deg)
 /* The memory with the safe command while there is no usable measurement, or no plan yet. */
 static inline void without_data(Memory *memory, const Settings *settings, const VehicleEstimates *known, real dt) {
     real bank_deg = memory->command.bank_deg;
-    const Route route = memory->plan.route;
+    const Route route = memory->planning.plan.route;
     if (memory->sensing.clock.since_s > BLIND_S) {
         const bool on_circle = route.side != 0 && is_holding(&route);
-        bank_deg = on_circle ? (real)route.side * memory->sensing.limits.hold_deg : REAL(0.0);
+        bank_deg = on_circle ? (real)route.side * memory->limits.hold_deg : REAL(0.0);
     }
     /* The limit may be lower now than when the last command was given. */
     bank_deg = clip(bank_deg, settings->command_limit_deg);
     const real rate = turn_rate_deg_s(known, bank_deg);
     const LawCommand command = MAKE(LawCommand){rate, bank_deg, NO_DATA, REAL_NAN, memory->command.side, NO_DATA,
             REAL_NAN};
-    memory->leads = NO_LEADS;
+    Planning changed_1 = memory->planning;
+    forget_leads(&changed_1);
+    const Planning new_2 = changed_1;
+    memory->planning = new_2;
     memory->command = command;
     memory->step_s = dt;
+    return;
+}
+
+/* The observer that measures the gusts along the flight anew. */
+static inline Observer restart_gusts(const Observer *observer) {
+    AirAverage changed_1 = observer->air;
+    changed_1.along = CALM_ALONG;
+    Observer changed_2 = (*observer);
+    changed_2.air = changed_1;
+    return changed_2;
+}
+
+/* What is known, without the gusts: the turns before the circle look like gusts. */
+static inline void measure_gusts_anew(Sensing *sensing) {
+    sensing->observer = restart_gusts(&sensing->observer);
+    return;
+}
+
+/* The memory once it is known elsewhere that the circle was joined. */
+static inline void forget_joining(Planning *planning) {
+    planning->has_joined = false;
     return;
 }
 
@@ -5340,27 +5391,25 @@ static inline real air_rate(real rate, real vx, real vy, real hx, real hy) {
  * Such a turn is planned again before it ends, unless the path is given; flying it as wide as planned would only
  * cost time.
  */
-static inline real_2 target_bank(const Settings *settings, const Memory *memory, const VehicleEstimates *known, real
-        dt) {
-    const Limits limits = memory->sensing.limits;
-    const Route route = memory->plan.route;
-    real trim = memory->trim;
-    const integer u = memory->plan.route.current.u;
-    if (u != 0 && route.second.u != ABSENT && memory->path.total == 0) {
-        return MAKE(real_2){(real)-u * limits.limit_deg, trim};
+static inline real_2 target_bank(real trim, const Settings *settings, const Limits *limits, const Sensing *sensing,
+        const Planning *planning, const VehicleEstimates *known, real dt) {
+    const Route route = planning->plan.route;
+    const Observer observer = sensing->observer;
+    const integer u = planning->plan.route.current.u;
+    if (u != 0 && route.second.u != ABSENT && planning->path.total == 0) {
+        return MAKE(real_2){(real)-u * limits->limit_deg, trim};
     }
-    const RelativeState state = memory->response.state;
-    const PathOffset offset = memory->response.offset;
+    const RelativeState state = planning->response.state;
+    const PathOffset offset = planning->response.offset;
     const real_2 path_velocity_1 = path_velocity(&route, &state);
     const real vx = path_velocity_1.a0, vy = path_velocity_1.a1;
-    const real speed = length(vx, vy), R = settings->radius_m, V = limits.turns.airspeed_m_s;
+    const real speed = length(vx, vy), R = settings->radius_m, V = limits->turns.airspeed_m_s;
     const bool holding = is_holding(&route);
-    const real response_s = limits.lag_s + memory->sensing.observer.smoothing_s;
-    const real gain = corrections_gain(settings, known, &memory->sensing.observer, response_s, V / R, holding);
+    const real response_s = limits->lag_s + observer.smoothing_s;
+    const real gain = corrections_gain(settings, known, &observer, response_s, V / R, holding);
     const real bandwidth = REAL(1.0) / (response_s + gain * dt);
     const real place_gain = holding ? HOLD_GAIN * speed / R : PLACE_GAIN * bandwidth;
-    const PathOffset followed = holding ? steep_offset(offset, R, along_roughness(&memory->sensing.observer)) :
-            offset;
+    const PathOffset followed = holding ? steep_offset(offset, R, along_roughness(&observer)) : offset;
     real course = course_rate(followed, gain * bandwidth, place_gain, speed);
     if (holding) {
         trim = next_trim(settings, trim, offset.crosstrack, gain * bandwidth, V, dt);
@@ -5391,24 +5440,30 @@ static inline integer phase_code(integer u) {
 
 /* The memory with the command for the next `dt` seconds, which follows the plan. */
 static APART void conclude(Memory *memory, const Settings *settings, const VehicleModel *vehicle, real dt) {
-    if (!memory->sensing.is_known || memory->plan.route.side == 0) {
+    if (!memory->sensing.is_known || memory->planning.plan.route.side == 0) {
         without_data(memory, settings, &vehicle->estimates, dt);
         return;
     }
-    const Limits limits = memory->sensing.limits;
+    if (memory->planning.has_joined) {
+        measure_gusts_anew(&memory->sensing);
+        forget_joining(&memory->planning);
+    }
+    const Limits limits = memory->limits;
     const Estimate present = memory->sensing.present;
-    const real_2 target_bank_1 = target_bank(settings, memory, &vehicle->estimates, dt);
+    const Plan plan = memory->planning.plan;
+    const real_2 target_bank_1 = target_bank(memory->trim, settings, &limits, &memory->sensing,
+            &memory->planning, &vehicle->estimates, dt);
     real target_deg = target_bank_1.a0;
     const real trim = target_bank_1.a1;
     target_deg = clip(target_deg, limits.limit_deg);
     const Bank now = MAKE(Bank){present.bank_deg, memory->sensing.bank_rate_deg_s};
     real bank_deg = demand_deg(vehicle->estimates.roll, now, target_deg, limits.limit_deg);
     bank_deg = clip(bank_deg, settings->command_limit_deg);
-    const Route route = memory->plan.route;
+    const Route route = plan.route;
     const LawCommand command = MAKE(LawCommand){turn_rate_deg_s(&vehicle->estimates, bank_deg), bank_deg,
-            phase_code(route.current.u), max_real(memory->plan.join_s - present.time_s, REAL(0.0)), route.side,
-            phase_code(route.second.u), is_holding(&route) ? REAL_INFINITY : memory->plan.remaining_s -
-            memory->response.early_s};
+            phase_code(route.current.u), max_real(plan.join_s - present.time_s, REAL(0.0)), route.side,
+            phase_code(route.second.u), is_holding(&route) ? REAL_INFINITY : plan.remaining_s -
+            memory->planning.response.early_s};
     memory->trim = trim;
     memory->command = command;
     memory->step_s = dt;
@@ -5419,10 +5474,11 @@ static APART void conclude(Memory *memory, const Settings *settings, const Vehic
  *
  * `vehicle` is what is known at this time, with the bank that is modelled for the end of the last command.
  */
-static inline void law_step_advance(Rings *rings, Memory *memory, const Settings *settings, const VehicleModel
-        *vehicle, const State *measurement, real dt) {
+static inline void advance(Rings *rings, Memory *memory, const Settings *settings, const VehicleModel *vehicle,
+        const State *measurement, real dt) {
     prepare(rings, memory, settings, vehicle, measurement);
-    continue_search(memory, settings, settings->search_steps == 0 ? UNLIMITED : settings->search_steps);
+    const integer steps = settings->search_steps == 0 ? UNLIMITED : settings->search_steps;
+    continue_search(&memory->planning, settings, &memory->limits, &memory->sensing, steps);
     conclude(memory, settings, vehicle, dt);
     return;
 }
@@ -5617,9 +5673,9 @@ static void follow_clock(loiter_law *law, uint32_t time_us) {
     clock->latest_s -= past_s;
     sensing->observer.estimate.time_s -= past_s;
     sensing->present.time_s -= past_s;
-    plan_by_clock(&law->memory.plan, -past_s);
-    law->memory.search.state.time_s -= past_s;
-    law->memory.response.state.time_s -= past_s;
+    plan_by_clock(&law->memory.planning.plan, -past_s);
+    law->memory.planning.search.state.time_s -= past_s;
+    law->memory.planning.response.state.time_s -= past_s;
     BankEntry *entries = law->rings.BankEntry_ring_128.at;
     const BankEntry last = entries[ENTRIES - 1];
     for (int i = 0; i < ENTRIES; i++) {
@@ -5640,7 +5696,7 @@ static void step_with(loiter_law *law, const loiter_measurement *m, real dt_s, l
     const real time_s = (real)(int32_t)(m->time_us - law->begin_us) * REAL(1e-6);
     const State state = {time_s,      m->east_m,           m->north_m,           m->heading_deg,
                          m->bank_deg, m->velocity_east_m_s, m->velocity_north_m_s, m->airspeed_m_s};
-    law_step_advance(&law->rings, &law->memory, &law->settings, &law->vehicle, &state, dt_s);
+    advance(&law->rings, &law->memory, &law->settings, &law->vehicle, &state, dt_s);
     const LawCommand *const given = &law->memory.command;
     command->turn_rate_deg_s = given->turn_rate_deg_s;
     command->bank_deg = given->bank_deg;

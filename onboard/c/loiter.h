@@ -6,7 +6,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 470f88b5eaa438f3b6e3bb828fa2227dcf5d837ad2b368aaa59a1a81232a1d05
+ * SHA-256 of the source: b8a265b37ff760d3533a6a8f698d2491aacb1af645fb68c979c8f4700759c045
  */
 #ifndef LOITER_ONBOARD_H
 #define LOITER_ONBOARD_H
@@ -213,14 +213,13 @@ typedef struct { loiter_real smoothing_s, interval_s; loiter_AirAverage air; loi
         loiter_Observer;
 typedef struct { loiter_real end_s, bank_deg, integral; } loiter_BankEntry;
 typedef struct { loiter_BankEntry at[128]; } loiter_BankEntry_ring_128;
-typedef struct { loiter_real current_deg; loiter_BankEntry_ring_128 *entries; } loiter_BankHistory;
+typedef struct { loiter_BankEntry_ring_128 *entries; } loiter_BankHistory;
+typedef struct { loiter_Clock clock; loiter_Observer observer; loiter_BankHistory history; loiter_Estimate present;
+        loiter_real bank_rate_deg_s, elapsed_s, model_error_deg; bool is_known; } loiter_Sensing;
 typedef struct { loiter_real airspeed_m_s, tightest_m, planned_m; } loiter_TurnLimits;
 typedef struct { loiter_integer revision; bool wind_differs; loiter_real wind_east_m_s, wind_north_m_s;
         loiter_RollValues roll; loiter_real limit_deg; loiter_TurnLimits turns; loiter_real hold_deg; loiter_integer
         hold_half_deg, planned_half_deg; loiter_real lead_s, reversal_s2, reversal_m, lag_s; } loiter_Limits;
-typedef struct { loiter_Clock clock; loiter_Observer observer; loiter_BankHistory history; loiter_Limits limits;
-        loiter_Estimate present; loiter_real bank_rate_deg_s, elapsed_s, model_error_deg; bool is_known; }
-        loiter_Sensing;
 typedef struct { loiter_integer u; loiter_real x, y, c, s, end_x, end_y, time_s, radius_m; } loiter_RoutePiece;
 typedef struct { loiter_integer side; loiter_RoutePiece current, second, third; loiter_real more_s; loiter_integer
         last_u; loiter_real start_s, turn_radius_m, speed_m_s, wind_east_m_s, wind_north_m_s; } loiter_Route;
@@ -237,11 +236,12 @@ typedef struct { loiter_RelativeState state; loiter_PathOffset offset; loiter_re
 typedef struct { loiter_integer aim; loiter_RelativeState state; loiter_TurnLimits turns; loiter_real wind_east_m_s,
         wind_north_m_s, radius_m, wide_m; loiter_integer side; bool reversing, is_second, is_begun;
         loiter_WindSearch in_air; } loiter_EntrySearch;
+typedef struct { loiter_Plan plan; loiter_GivenPath path; loiter_Leads leads; loiter_ResponsePoint response;
+        loiter_EntrySearch search; bool has_joined; } loiter_Planning;
 typedef struct { loiter_real turn_rate_deg_s, bank_deg; loiter_integer phase; loiter_real time_to_join_s;
         loiter_integer side, next_phase; loiter_real next_in_s; } loiter_LawCommand;
-typedef struct { loiter_Sensing sensing; loiter_Plan plan; loiter_GivenPath path; loiter_Leads leads;
-        loiter_ResponsePoint response; loiter_EntrySearch search; loiter_real trim; loiter_LawCommand command;
-        loiter_real step_s; } loiter_Memory;
+typedef struct { loiter_Sensing sensing; loiter_Limits limits; loiter_Planning planning; loiter_real trim;
+        loiter_LawCommand command; loiter_real step_s; } loiter_Memory;
 typedef struct { loiter_AirSample_ring_64 AirSample_ring_64; loiter_BankEntry_ring_128 BankEntry_ring_128; loiter_PathPiece_ring_12 PathPiece_ring_12; } loiter_Rings;
 
 /* The state of a law; it contains no pointers, so that it may be copied and moved. `estimates` of `vehicle` are what is

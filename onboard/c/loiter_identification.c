@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 7c2972a31e00214f0b9c1d39059b3df916860145b15787f9956854f60644f77c
+ * SHA-256 of the source: cc33c409d01189f08ba349ff05f32387af09f2438819ca9b074cbeb231568d4f
  */
 #include "loiter_identification.h"
 
@@ -239,6 +239,12 @@ typedef loiter_IdentificationSettings IdentificationSettings;
 typedef loiter_Sums Sums;
 
 typedef loiter_Bank Bank;
+
+/* A short step of a bank whose rate has a lag: its time, seconds, and the share of the present rate.
+ *
+ * `kept` is the share at the end of the step, `share` that on average in the change of bank.
+ */
+typedef struct { real time_s, kept, share; } RollStep;
 
 typedef loiter_Clock Clock;
 
@@ -675,10 +681,26 @@ static inline real bank_after(real roll_time_s, real rate_deg_s, real bank_deg, 
     return time_s <= limited_s ? command_deg - missing : command_deg;
 }
 
+/* The step of a time above 0. */
+static inline RollStep roll_step(RollValues roll, real time_s) {
+    const real kept = real_exp(-time_s / roll.lag_s), lags = time_s / roll.lag_s;
+    /* The difference of large numbers for a short time, of which this is the series. */
+    return MAKE(RollStep){time_s, kept, lags < SHORT_LAGS ? REAL(0.5) - lags / REAL(12.0) : REAL(1.0) / lags - kept
+            / (REAL(1.0) - kept)};
+}
+
 /* `value`, limited to the range from -`limit` to `limit`. */
 static inline real clip(real value, real limit) {
     /* Comparisons take a third of the time of `min` and `max`, and a law clips several values in each step. */
     return value > limit ? limit : value < -limit ? -limit : value;
+}
+
+/* The bank after a step under a constant command, where its rate has a lag. */
+static inline Bank lagging_after(RollValues roll, RollStep step, Bank now, real command_deg) {
+    const real wanted_deg_s = (command_deg - now.bank_deg - REAL(0.5) * step.time_s * now.rate_deg_s) / roll.time_s;
+    const real rate_deg_s = clip(wanted_deg_s + step.kept * (now.rate_deg_s - wanted_deg_s), roll.rate_deg_s);
+    const real change_deg = step.time_s * (rate_deg_s + step.share * (now.rate_deg_s - rate_deg_s));
+    return MAKE(Bank){now.bank_deg + change_deg, rate_deg_s};
 }
 
 /* The bank after a short time under a constant command; exact without a lag of the bank rate. */
@@ -687,14 +709,7 @@ static inline Bank roll_after(RollValues roll, Bank now, real command_deg, real 
         return MAKE(Bank){bank_after(roll.time_s, roll.rate_deg_s, now.bank_deg, command_deg, time_s),
                 now.rate_deg_s};
     }
-    const real kept = real_exp(-time_s / roll.lag_s);
-    const real wanted_deg_s = (command_deg - now.bank_deg - REAL(0.5) * time_s * now.rate_deg_s) / roll.time_s;
-    const real rate_deg_s = clip(wanted_deg_s + kept * (now.rate_deg_s - wanted_deg_s), roll.rate_deg_s);
-    const real lags = time_s / roll.lag_s;
-    /* The difference of large numbers for a short time, of which this is the series. */
-    const real share = lags < SHORT_LAGS ? REAL(0.5) - lags / REAL(12.0) : REAL(1.0) / lags - kept / (REAL(1.0) -
-            kept);
-    return MAKE(Bank){now.bank_deg + time_s * (rate_deg_s + share * (now.rate_deg_s - rate_deg_s)), rate_deg_s};
+    return lagging_after(roll, roll_step(roll, time_s), now, command_deg);
 }
 
 /* The step of a model without its limit. */
@@ -1013,7 +1028,7 @@ static inline bool is_usable(const State *state) {
 }
 
 /* The clock `dt` seconds later. */
-static inline Clock advance(const Clock *clock, real dt) {
+static inline Clock advance_clock(const Clock *clock, real dt) {
     const real time_s = clock->time_s, since_s = clock->since_s, gap_s = clock->gap_s, jump_s =
             clock->jump_s, first_s = clock->first_s, latest_s = clock->latest_s;
     return MAKE(Clock){time_s, since_s + dt, gap_s, jump_s, first_s, latest_s};
@@ -1439,7 +1454,7 @@ static APART void advance_identification(Identification *memory, const Identific
         waited_s = waited_s + dt;
     }
     if (is_usable(measurement) && measurement->time_s != clock.time_s) {
-        const Clock stored_1 = advance(&clock, waited_s);
+        const Clock stored_1 = advance_clock(&clock, waited_s);
         const Clock_bool check_stamp_2 = check_stamp(&stored_1, measurement->time_s);
         clock = check_stamp_2.a0;
         const bool is_new = check_stamp_2.a1;

@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 7c2972a31e00214f0b9c1d39059b3df916860145b15787f9956854f60644f77c
+ * SHA-256 of the source: cc33c409d01189f08ba349ff05f32387af09f2438819ca9b074cbeb231568d4f
  */
 #ifndef LOITER_IDENTIFICATION_H
 #define LOITER_IDENTIFICATION_H

@@ -13,7 +13,7 @@ import pytest
 from loiter.cli.app import main
 from loiter.cli.vehicles import line
 from loiter.guidance.protocol import Phase, State
-from loiter.guidance.vehicle.rolling import Roll
+from loiter.guidance.vehicle import Roll
 from loiter.io.flight_log import LogRow
 from loiter.mavlink import GuideReport, Stage
 from loiter.planning.model import Turn

@@ -21,9 +21,9 @@ from loiter.evidence.checks.rolling_check import (
     settling_bound_s,
 )
 from loiter.evidence.checks.rolling_lower import lower_bound
+from loiter.guidance.circle import Band
 from loiter.guidance.trials.campaign import trials
-from loiter.guidance.vehicle.circle import Band
-from loiter.guidance.vehicle.rolling import Roll
+from loiter.guidance.vehicle import Roll
 
 # The start of the first example, 25 s away, in metres.
 ENTRY = plan(Pose(-400.0, 120.0, 90.0), Orbit(0.0, 0.0, 120.0), Aircraft(22.0, max_bank_deg=45.0))

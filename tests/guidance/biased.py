@@ -17,7 +17,7 @@ from loiter import Pose, plan
 from loiter.guidance.trials.campaign import LAWS
 from loiter.guidance.trials.flight import fly
 from loiter.guidance.trials.varied import VariedTrial, varied_point_mass
-from loiter.guidance.vehicle.rolling import Roll
+from loiter.guidance.vehicle import Roll
 
 # A flight that settles later than the first number of durations of the plan counts as not settled. Nine of ten should
 # settle within the second.

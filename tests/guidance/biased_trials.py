@@ -16,7 +16,7 @@ from loiter.guidance.simulators.roll_dynamics import RollResponse
 from loiter.guidance.simulators.sensors import Noise
 from loiter.guidance.trials.campaign import random_trials
 from loiter.guidance.trials.varied import VariedTrial
-from loiter.guidance.vehicle.rolling import Roll
+from loiter.guidance.vehicle import Roll
 from loiter.kernel.wind.hold import tightest_radius
 from loiter.planning.model import Aircraft, Orbit, Pose, Wind, relative_wind
 from loiter.planning.solve import plan

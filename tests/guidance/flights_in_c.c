@@ -347,7 +347,7 @@ void fly_scene(const Scene *s, const Settings *settings, const VehicleEstimates 
             vehicle.estimates.roll = (RollValues){s->lag_s, s->roll.rate_deg_s, s->roll.order == 1 ? 0.0 : 0.5 / (s->roll.damping * s->roll.frequency)};
             vehicle.estimates.delay_s = s->delay_s + s->roll.dead_time_s;
         }
-        law_step_advance(&memory, *settings, vehicle, link.latest, dt);
+        advance(&memory, *settings, vehicle, link.latest, dt);
         if (rows) {
             const State t = true_state(&mass);
             rows[steps] = (Row){t.time_s, t.east_m, t.north_m, t.heading_deg, t.bank_deg, t.velocity_east_m_s,

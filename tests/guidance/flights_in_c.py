@@ -17,6 +17,7 @@ from codegen.files import LARGE, LAW_ARITHMETIC
 from codegen.unit import Unit
 
 from guidance.test_law_in_c import in_c
+from loiter.guidance.circle import Band
 from loiter.guidance.entry import law_step
 from loiter.guidance.entry.loiter_entry import LoiterEntry
 from loiter.guidance.estimation import identification_step
@@ -25,9 +26,7 @@ from loiter.guidance.simulators.point_mass import ALTITUDE_M
 from loiter.guidance.simulators.roll_dynamics import damping, rise_time
 from loiter.guidance.trials.flight import LIMIT_S, STEP_S
 from loiter.guidance.trials.settling import DIRECTIONS
-from loiter.guidance.vehicle import turning
-from loiter.guidance.vehicle.circle import Band
-from loiter.guidance.vehicle.rolling import Roll
+from loiter.guidance.vehicle import Roll, constant_turn
 from loiter.planning.compass import heading_vector
 from native.library import COMPILER, FLAGS
 
@@ -40,7 +39,7 @@ ROOTS = (
     identification_step.settings_of,
     identification_step.begin_identification,
     identification_step.advance_identification,
-    turning.constant_turn,
+    constant_turn,
 )
 
 

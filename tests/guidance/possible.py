@@ -15,13 +15,13 @@ import numpy as np
 
 from loiter import Aircraft
 from loiter.evidence.checks.rolling_check import settling_bound_s
+from loiter.guidance.circle import Band
 from loiter.guidance.protocol import Simulator
 from loiter.guidance.simulators.airframes import AEROSONDE, J3CUB, Airframe
 from loiter.guidance.simulators.jsbsim_aircraft import JsbsimAircraft
 from loiter.guidance.trials.campaign import MakeSimulator, Trial, campaign, optimal, trials
 from loiter.guidance.trials.settings import point_mass_setting
-from loiter.guidance.vehicle.circle import Band
-from loiter.guidance.vehicle.rolling import Roll
+from loiter.guidance.vehicle import Roll
 
 AIRFRAMES = {"j3cub": J3CUB, "aerosonde": AEROSONDE}
 

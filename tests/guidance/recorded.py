@@ -26,7 +26,7 @@ from loiter.guidance.simulators.point_mass import PointMass
 from loiter.guidance.simulators.sensors import Noise
 from loiter.guidance.trials.campaign import trials
 from loiter.guidance.trials.varied import varied_point_mass, varied_trials
-from loiter.guidance.vehicle.rolling import Roll
+from loiter.guidance.vehicle import Roll
 
 UAV = Aircraft(18.0, max_bank_deg=35.0)
 PHASES, TURNS = list(Phase), ["cw", "ccw", "either"]

@@ -13,7 +13,7 @@ from loiter.guidance.simulators.downlink import Downlink, WithDownlink
 from loiter.guidance.simulators.point_mass import PointMass
 from loiter.guidance.simulators.sensors import Noise
 from loiter.guidance.trials.flight import fly
-from loiter.guidance.vehicle.rolling import Roll
+from loiter.guidance.vehicle import Roll
 from native.library import needs_compiler
 
 SLOW_ROLL, BIASED = Roll(0.53, 30.0), Noise(heading_bias_deg=-4.0, bank_bias_deg=2.7)

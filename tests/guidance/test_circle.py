@@ -5,8 +5,8 @@ from math import cos, degrees, pi, radians, sin
 import pytest
 
 from loiter import Orbit
+from loiter.guidance.circle import Band, circle_offset
 from loiter.guidance.protocol import State
-from loiter.guidance.vehicle.circle import Band, circle_offset
 
 CIRCLE = Orbit(30.0, -20.0, 80.0, "cw")
 

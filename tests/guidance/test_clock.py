@@ -4,7 +4,7 @@ from math import inf
 
 import pytest
 
-from loiter.guidance.estimation.clock import FIRST_CLOCK, LARGEST_GAP_S, advance, check_stamp
+from loiter.guidance.estimation.observer import FIRST_CLOCK, LARGEST_GAP_S, advance_clock, check_stamp
 
 DT = 0.02
 
@@ -15,7 +15,7 @@ def stepped(stamps, clock=FIRST_CLOCK):
     for time_s in stamps:
         clock, is_new = check_stamp(clock, time_s)
         answers.append(is_new)
-        clock = advance(clock, DT)
+        clock = advance_clock(clock, DT)
     return answers, clock
 
 
@@ -67,7 +67,7 @@ def test_after_a_pause_stamps_are_accepted():
     assert accepted([0.0, 0.02, 0.02 + LARGEST_GAP_S]) == [True, True, True]
     clock, is_new = check_stamp(FIRST_CLOCK, 5.0)
     assert is_new
-    clock, is_new = check_stamp(advance(clock, 3.0 * LARGEST_GAP_S), 5.0 + 3.0 * LARGEST_GAP_S)
+    clock, is_new = check_stamp(advance_clock(clock, 3.0 * LARGEST_GAP_S), 5.0 + 3.0 * LARGEST_GAP_S)
     assert is_new
     assert (clock.gap_s, clock.jump_s) == (3.0 * LARGEST_GAP_S, 0.0)
 

@@ -15,7 +15,7 @@ from loiter.guidance.entry.loiter_entry import LoiterEntry
 from loiter.guidance.simulators.kinematic import Kinematic
 from loiter.guidance.simulators.point_mass import PointMass
 from loiter.guidance.trials.flight import fly
-from loiter.guidance.vehicle.rolling import INSTANT_ROLL
+from loiter.guidance.vehicle import INSTANT_ROLL
 
 UAV = Aircraft(18.0, max_bank_deg=35.0)
 POSE, ORBIT = Pose(-450.0, 0.0, 90.0), Orbit(0.0, -200.0, 120.0, Turn.CW)

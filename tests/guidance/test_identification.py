@@ -52,8 +52,7 @@ from loiter.guidance.simulators.roll_dynamics import RollResponse, SecondOrderRo
 from loiter.guidance.simulators.sensors import EXACT, Noise
 from loiter.guidance.trials.flight import fly
 from loiter.guidance.trials.varied import varied_trials
-from loiter.guidance.vehicle.rolling import Roll, RollValues
-from loiter.guidance.vehicle.turning import bank_at_rate, rate_at_bank
+from loiter.guidance.vehicle import Roll, RollValues, bank_at_rate, rate_at_bank
 
 UAV, ORBIT = Aircraft(18.0, max_bank_deg=35.0), Orbit(0.0, 0.0, 120.0)
 START = Pose(-400.0, 120.0, 200.0)

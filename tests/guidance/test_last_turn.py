@@ -8,9 +8,9 @@ import pytest
 from guidance.biased import ratio
 from guidance.biased_trials import biased_trials
 from loiter.guidance.entry.entry_planner import RelativeState
-from loiter.guidance.entry.law_step import displaced
+from loiter.guidance.entry.plan import displaced
 from loiter.guidance.entry.route import NO_PIECE, NO_ROUTE, last_radius_m, with_last_line, with_last_turn
-from loiter.guidance.vehicle.rolling import Bank, RollValues, demand_deg, roll_after, turn_delay
+from loiter.guidance.vehicle import Bank, RollValues, demand_deg, roll_after, turn_delay
 from loiter.planning.model import STANDARD_GRAVITY_M_S2
 from native.library import needs_compiler
 

@@ -12,13 +12,14 @@ from codegen.kinds import INTEGER, REAL, TRUTH, Kind, kind_of_type
 
 from guidance.recorded import damaged
 from loiter import Aircraft, Orbit, Pose, Wind
-from loiter.guidance.entry.law_step import LawCommand, Memory, Settings
+from loiter.guidance.entry.law_step import LawCommand, Memory
+from loiter.guidance.entry.limits import Settings
 from loiter.guidance.entry.loiter_entry import LoiterEntry
 from loiter.guidance.estimation.identification_step import Identification, IdentificationSettings
-from loiter.guidance.estimation.vehicle import VehicleEstimates, VehicleModel
 from loiter.guidance.protocol import State
 from loiter.guidance.simulators.point_mass import PointMass
 from loiter.guidance.simulators.sensors import Noise
+from loiter.guidance.vehicle import VehicleEstimates, VehicleModel
 from native.library import COMPILER, FLAGS, needs_compiler
 
 pytestmark = needs_compiler

@@ -11,22 +11,13 @@ from codegen.files import LAW_ARITHMETIC
 from codegen.unit import Unit
 
 from loiter import Aircraft, Orbit, Pose, Wind
-from loiter.guidance.entry import entry_planner, law_step, path_tracking, route
+from loiter.guidance import vehicle as vehicle_model
+from loiter.guidance.entry import entry_planner, law_step, limits, plan, route, tracking
 from loiter.guidance.entry.loiter_entry import NAMED_PHASES, LoiterEntry
-from loiter.guidance.estimation import (
-    bank_history,
-    clock,
-    identification_step,
-    observer,
-    roll_response,
-    turn_fits,
-    wind_fit,
-)
-from loiter.guidance.estimation import vehicle as vehicle_model
+from loiter.guidance.estimation import identification_step, observer, roll_response, turn_fits, wind_fit
 from loiter.guidance.protocol import Phase
 from loiter.guidance.simulators.point_mass import PointMass
 from loiter.guidance.simulators.sensors import Noise
-from loiter.guidance.vehicle import rolling, turning
 
 UAV, ORBIT = Aircraft(18.0, max_bank_deg=35.0), Orbit(0.0, 0.0, 120.0)
 START = Pose(-400.0, 120.0, 200.0)
@@ -123,8 +114,8 @@ def test_the_identification_changes_nothing_and_depends_on_nothing_else():
     assert len(sizes) == 1
 
 
-IDENTIFICATION = bank_history, identification_step, roll_response, turn_fits, vehicle_model, wind_fit
-PURE = *IDENTIFICATION, clock, entry_planner, law_step, observer, path_tracking, rolling, route, turning
+ESTIMATION = identification_step, observer, roll_response, turn_fits, vehicle_model, wind_fit
+PURE = *ESTIMATION, entry_planner, law_step, limits, plan, route, tracking
 
 
 def test_the_law_is_written_in_the_subset_of_python_that_is_translated_to_c():

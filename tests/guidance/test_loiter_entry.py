@@ -18,7 +18,7 @@ from loiter.guidance.simulators.kinematic import Kinematic
 from loiter.guidance.simulators.point_mass import PointMass
 from loiter.guidance.simulators.sensors import EXACT, Noise
 from loiter.guidance.trials.flight import fly
-from loiter.guidance.vehicle.rolling import Roll
+from loiter.guidance.vehicle import Roll
 from loiter.planning.model import Turn
 from strategies import scenes, windy_scenes
 

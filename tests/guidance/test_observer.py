@@ -9,23 +9,22 @@ from hypothesis import strategies as st
 
 from guidance.flights import UAV
 from loiter import Pose, Wind
-from loiter.guidance.estimation.bank_history import (
-    ENTRIES,
-    constant_history,
-    delayed_deg,
-    mean_deg,
-    record_bank,
-)
 from loiter.guidance.estimation.observer import (
+    ENTRIES,
     SAMPLES,
     average_air,
+    constant_history,
+    delayed_deg,
     estimate_after,
     estimate_at_present,
     first_air,
     first_observer,
     gust,
     is_usable,
+    mean_deg,
     observe,
+    present_deg,
+    record_bank,
     restart_air,
 )
 from loiter.guidance.protocol import Command, Phase, State
@@ -33,7 +32,7 @@ from loiter.guidance.simulators.gusts import Gusts
 from loiter.guidance.simulators.kinematic import Kinematic
 from loiter.guidance.simulators.point_mass import PointMass
 from loiter.guidance.simulators.sensors import Noise
-from loiter.guidance.vehicle.rolling import Roll
+from loiter.guidance.vehicle import Roll
 from loiter.planning.model import Turn
 
 GOOD = State(1.0, 2.0, 3.0, 40.0, 5.0, 6.0, 17.0, 18.0)
@@ -155,7 +154,7 @@ def test_the_bank_history_covers_the_delay(taken, delay):
         history = record_bank(history, bank, dt)
     ends = np.cumsum([10.0, *(dt for dt, _ in taken)])
     banks, begin = np.array([0.0, *(bank for _, bank in taken)]), ends[-1] - delay
-    assert history.current_deg == taken[-1][1]
+    assert present_deg(history) == taken[-1][1]
     # A delay of 1e-9 s is interpolated between numbers that are rounded.
     assert delayed_deg(history, delay) == pytest.approx(np.interp(begin, ends, banks), abs=1e-8)
     assume(delay > 1e-3)
@@ -169,7 +168,7 @@ def test_a_step_longer_than_the_delay_replaces_the_history():
     history = constant_history(0.0)
     for dt in (0.02, 1e308, 0.02, 0.02):
         history = record_bank(history, 20.0, dt)
-    assert (delayed_deg(history, 0.1), history.current_deg) == (20.0, 20.0)
+    assert (delayed_deg(history, 0.1), present_deg(history)) == (20.0, 20.0)
     assert mean_deg(history, 0.1) == pytest.approx(20.0)
 
 

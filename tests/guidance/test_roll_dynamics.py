@@ -10,7 +10,7 @@ from loiter.guidance.simulators.downlink import Downlink, WithDownlink
 from loiter.guidance.simulators.kinematic import Kinematic
 from loiter.guidance.simulators.point_mass import PointMass
 from loiter.guidance.simulators.roll_dynamics import FirstOrderRoll, RollResponse, SecondOrderRoll
-from loiter.guidance.vehicle.rolling import Roll
+from loiter.guidance.vehicle import Roll
 from loiter.planning.model import Turn
 
 UAV = Aircraft(18.0, max_bank_deg=35.0)

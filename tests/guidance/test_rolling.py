@@ -7,8 +7,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from loiter.errors import InvalidArgument
-from loiter.guidance.vehicle.limits import clip
-from loiter.guidance.vehicle.rolling import INSTANT_ROLL, Bank, Roll, RollValues, demand_deg, roll_after, turn_delay
+from loiter.guidance.vehicle import INSTANT_ROLL, Bank, Roll, RollValues, clip, demand_deg, roll_after, turn_delay
 
 LIMIT_DEG = 35.0
 rolls = st.builds(Roll, st.floats(0.05, 2.0), st.sampled_from([15.0, 60.0, 300.0, inf]))

@@ -8,9 +8,9 @@ from hypothesis import strategies as st
 
 from loiter import Orbit, Turn
 from loiter.errors import InvalidArgument
+from loiter.guidance.circle import Band
 from loiter.guidance.protocol import State
 from loiter.guidance.trials.settling import COUNTED_DEG, SettlingMonitor
-from loiter.guidance.vehicle.circle import Band
 
 STEP = 0.01
 

@@ -14,8 +14,7 @@ from loiter.guidance.protocol import Command, Phase
 from loiter.guidance.simulators.kinematic import Kinematic
 from loiter.guidance.simulators.point_mass import PointMass
 from loiter.guidance.simulators.sensors import EXACT
-from loiter.guidance.vehicle.rolling import INSTANT_ROLL, Roll
-from loiter.guidance.vehicle.turning import rate_at_bank
+from loiter.guidance.vehicle import INSTANT_ROLL, Roll, rate_at_bank
 from loiter.planning.model import STANDARD_GRAVITY_M_S2, Turn
 from strategies import windy_scenes
 

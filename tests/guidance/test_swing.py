@@ -24,7 +24,7 @@ from loiter.guidance.estimation.observer import (
     roughness,
 )
 from loiter.guidance.protocol import Phase, State
-from loiter.guidance.vehicle.rolling import Roll
+from loiter.guidance.vehicle import Roll
 from loiter.planning.model import STANDARD_GRAVITY_M_S2
 
 STEP_S, AIRSPEED_M_S = 0.025, 23.5

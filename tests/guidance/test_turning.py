@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from loiter import Aircraft
-from loiter.guidance.vehicle.turning import PlanarPose, bank_at_rate, constant_turn, rate_at_bank
+from loiter.guidance.vehicle import PlanarPose, bank_at_rate, constant_turn, rate_at_bank
 
 speeds, times = st.floats(1.0, 60.0), st.floats(0.0, 20.0)
 

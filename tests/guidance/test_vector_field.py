@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 from guidance.circling import state_of
 from loiter import Aircraft, Orbit
+from loiter.guidance.circle import CircleOffset
 from loiter.guidance.rivals.vector_field import (
     FieldGains,
     VectorField,
@@ -16,7 +17,6 @@ from loiter.guidance.rivals.vector_field import (
     field_rate,
     largest_k,
 )
-from loiter.guidance.vehicle.circle import CircleOffset
 from loiter.planning.compass import heading_vector
 from loiter.planning.model import STANDARD_GRAVITY_M_S2
 

@@ -11,7 +11,7 @@ from loiter.guidance.estimation.wind_fit import CHANGED_S, NO_CHANGE, add_differ
 from loiter.guidance.simulators.point_mass import PointMass
 from loiter.guidance.simulators.sensors import Noise
 from loiter.guidance.trials.flight import fly
-from loiter.guidance.vehicle.rolling import Roll
+from loiter.guidance.vehicle import Roll
 
 UAV, STEP_S = Aircraft(22.0, max_bank_deg=45.0), 0.02
 NOISE, SLIPPING = Noise(0.5, 0.5, 0.5, 0.2, 0.2, 0.24), Aircraft(22.5, max_bank_deg=44.5)

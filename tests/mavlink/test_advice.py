@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from loiter import Aircraft, Orbit, Pose, Turn, Wind, plan
-from loiter.guidance.vehicle.circle import CircleOffset
+from loiter.guidance.circle import CircleOffset
 from loiter.mavlink.watching.advice import Action, HoldDetector, actions, plan_offset
 
 UAV = Aircraft(18.0, max_bank_deg=35.0)

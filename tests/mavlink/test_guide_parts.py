@@ -18,12 +18,10 @@ from loiter.batch.tables.flight_logs import read_parquet, to_parquet
 from loiter.cli.app import main
 from loiter.errors import InvalidArgument, RadiusTooSmall, WindTooStrong
 from loiter.geo import LocalFrame
+from loiter.guidance.circle import circle_offset
 from loiter.guidance.protocol import State
 from loiter.guidance.rivals.l1 import circle_demand
-from loiter.guidance.vehicle.circle import circle_offset
-from loiter.guidance.vehicle.limits import clip
-from loiter.guidance.vehicle.rolling import Roll
-from loiter.guidance.vehicle.turning import PlanarPose, constant_turn
+from loiter.guidance.vehicle import PlanarPose, Roll, clip, constant_turn
 from loiter.io.flight_log import TEXTS, LogRow, read_log
 from loiter.io.missions.items import Autopilot
 from loiter.mavlink.autopilots.acceleration_sign import CAUTIOUS_DEG, AccelerationSign, sign_of_version

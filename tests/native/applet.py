@@ -18,12 +18,12 @@ from codegen.onboard.lua_files import APPLET, FOLDER
 from lupa.lua53 import LuaRuntime
 
 from loiter import Aircraft, Orbit, Pose, Turn, Wind, plan
+from loiter.guidance.circle import Band
 from loiter.guidance.protocol import Command, Phase
 from loiter.guidance.rivals.l1 import L1
 from loiter.guidance.simulators.point_mass import PointMass
 from loiter.guidance.trials.settling import SettlingMonitor
-from loiter.guidance.vehicle.circle import Band
-from loiter.guidance.vehicle.rolling import Roll
+from loiter.guidance.vehicle import Roll
 from loiter.version import __version__
 
 HERE = Path(__file__).parent

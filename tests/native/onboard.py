@@ -23,10 +23,11 @@ import numpy as np
 from codegen.kinds import INTEGER, REAL, TRUTH, kind_of_type
 from codegen.onboard import FOLDER
 
-from loiter.guidance.entry.law_step import LawCommand, Settings
+from loiter.guidance.entry.law_step import LawCommand
+from loiter.guidance.entry.limits import Settings
 from loiter.guidance.entry.loiter_entry import NAMED_PHASES, NAMED_TURNS, LoiterEntry
-from loiter.guidance.estimation.vehicle import VehicleModel
 from loiter.guidance.protocol import Command, State
+from loiter.guidance.vehicle import VehicleModel
 from loiter.kernel.entry import Entry
 from loiter.kernel.wind.wind_search import WindEntry, WindProblem
 from native.library import COMPILER, FLAGS
@@ -77,7 +78,7 @@ void test_begin(loiter_law *law, const Settings *settings, const VehicleModel *v
 }
 void test_step(loiter_law *law, const VehicleModel *vehicle, const State *state, const real *dt, LawCommand *command) {
     use_own_rings(law);
-    law_step_advance(&law->rings, &law->memory, &law->settings, vehicle, state, *dt);
+    advance(&law->rings, &law->memory, &law->settings, vehicle, state, *dt);
     *command = law->memory.command;
 }
 typedef struct { loiter_law law; loiter_identification known; bool identifies; } Flight;

@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from loiter.guidance.vehicle.rolling import RollValues, turn_onset
+from loiter.guidance.vehicle import RollValues, turn_onset
 from native.untranslatable import rounds
 
 ROUNDING = 0.5

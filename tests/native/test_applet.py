@@ -224,7 +224,9 @@ def test_the_law_gives_the_commands_of_python(lua):
         state = mass.measured_state()
         model = functions.fly_as_declared(model, memory.command.bank_deg, memory.step_s)
         memory = functions.prepare(memory, settings, model, in_lua(runtime, state))
-        memory = functions.conclude(functions.continue_search(memory, settings, 10), settings, model, dt)
+        limits, sensing = memory.limits, memory.sensing
+        memory.planning = functions.continue_search(memory.planning, settings, limits, sensing, 10)
+        memory = functions.conclude(memory, settings, model, dt)
         found, wanted = memory.command, law_.step(state, dt)
         assert same(found.bank_deg, wanted.bank_deg)
         mass.advance(wanted, dt)

@@ -10,10 +10,10 @@ from codegen.onboard.lua_files import FOLDER
 from lupa.lua53 import LuaError
 
 from loiter import Orbit, Pose
+from loiter.guidance.circle import Band
 from loiter.guidance.simulators.airframes import AEROSONDE
 from loiter.guidance.simulators.jsbsim_aircraft import JsbsimAircraft
 from loiter.guidance.trials.settling import SettlingMonitor
-from loiter.guidance.vehicle.circle import Band
 from native.applet import REPOSITION, Applet, World
 
 WATCHDOG, RADIUS_M, START = FOLDER / "loiter_watchdog.lua", 150.0, Pose(-500.0, 150.0, 200.0)

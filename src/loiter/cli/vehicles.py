@@ -16,7 +16,7 @@ from loiter.planning.model import wind_from_velocity
 from loiter.planning.vocabulary import ACTIONS
 
 if TYPE_CHECKING:
-    from loiter.guidance.estimation.vehicle import VehicleEstimates
+    from loiter.guidance.vehicle import VehicleEstimates
     from loiter.mavlink import GuideReport, Report
 
 # Winds below this, metres per second, and offsets below this, metres, are omitted: they would print as 0.

@@ -42,12 +42,12 @@ from loiter.writing import check_writable, write_content
 
 if TYPE_CHECKING:
     from loiter.cli.flights import Conditions
+    from loiter.guidance.circle import Band
     from loiter.guidance.protocol import Law
     from loiter.guidance.simulators.airframes import Airframe
     from loiter.guidance.trials.campaign import Outcome, Trial
     from loiter.guidance.trials.flight import Flight
     from loiter.guidance.trials.settings import Setting
-    from loiter.guidance.vehicle.circle import Band
     from loiter.planning.maneuver import Maneuver
 
 SimulatorName = Literal["kinematic", "point", "varied", "jsbsim"]
@@ -239,8 +239,8 @@ class SlotOptions:
     @property
     def settling_band(self) -> Band:
         """What counts as on the circle: the band of the hold more than elsewhere, and courses in and out of it."""
+        from loiter.guidance.circle import Band
         from loiter.guidance.trials.settings import HEAVY_GUST_BAND, STANDARD_BAND
-        from loiter.guidance.vehicle.circle import Band
 
         return Band(STANDARD_BAND.radial + self.band, HEAVY_GUST_BAND.course_deg)
 

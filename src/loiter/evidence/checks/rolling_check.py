@@ -16,9 +16,9 @@ from loiter.evidence.checks.oracle import Circle, Planar
 from loiter.evidence.checks.oracle_check import CheckProblem, start_about
 from loiter.evidence.checks.rolling import BankProfile, Rolling, RollingPath, SettlingBand, Word, fastest_roll
 from loiter.evidence.checks.rolling_lower import lower_bound
+from loiter.guidance.circle import Band
 from loiter.guidance.trials.campaign import trials
-from loiter.guidance.vehicle.circle import Band
-from loiter.guidance.vehicle.rolling import Roll
+from loiter.guidance.vehicle import Roll
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CONTROLS, Aircraft, Turn
 from loiter.planning.solve import candidates

@@ -7,7 +7,6 @@ from typing import NamedTuple
 
 from loiter.compiled.solver import advance as advance_in_wind
 from loiter.compiled.solver import optimum
-from loiter.guidance.entry.path_tracking import flight_velocity
 from loiter.kernel.angles import length
 from loiter.kernel.entry import Entry
 from loiter.kernel.motion import reduce
@@ -20,6 +19,11 @@ from loiter.kernel.words import ABSENT, Word, code, controls
 # An aircraft that hardly exceeds the wind can hold no circle; wind beyond this share of the airspeed is planned as if
 # it were weaker.
 STRONGEST_WIND = 0.95
+
+
+# The least speed along the heading, as a share of the airspeed, from which a course is taken: below it the measured
+# velocity is not that of an aircraft in flight.
+LEAST_SPEED = 0.05
 
 
 class RelativeState(NamedTuple):
@@ -35,6 +39,11 @@ class RelativeState(NamedTuple):
     vy: float
     hx: float
     hy: float
+
+
+def flight_velocity(vx: float, vy: float, hx: float, hy: float) -> tuple[float, float]:
+    """The velocity (vx, vy) of a vehicle that flies along (hx, hy); (hx, hy) where that velocity is not plausible."""
+    return (vx, vy) if vx * hx + vy * hy > LEAST_SPEED * (hx * hx + hy * hy) else (hx, hy)
 
 
 class TurnLimits(NamedTuple):

@@ -14,10 +14,9 @@ from typing import Any, NamedTuple
 from loiter.errors import InvalidArgument, LoiterError, RadiusTooSmall, WindTooStrong, instance, not_negative
 from loiter.fences import ClearEntry, Fence, check, default_margin_m
 from loiter.fences.clear_entry import fastest_clear
-from loiter.guidance.entry.entry_planner import RelativeState, end_entry_search
-from loiter.guidance.entry.law_step import Plan
+from loiter.guidance.entry.entry_planner import RelativeState, flight_velocity
 from loiter.guidance.entry.loiter_entry import LoiterEntry
-from loiter.guidance.entry.path_tracking import flight_velocity
+from loiter.guidance.entry.plan import Plan, Planning, end_search
 from loiter.guidance.entry.route import (
     MOST_PIECES,
     NO_ROUTE,
@@ -107,7 +106,7 @@ class FencedEntry(LoiterEntry):
         """The command of `LoiterEntry`, whose plan is then checked."""
         command = super().step(state, dt)
         memory = self._memory
-        if memory.sensing.is_known and memory.plan.route.side != 0:
+        if memory.sensing.is_known and memory.planning.plan.route.side != 0:
             # In a wind in which the circle cannot be held the present plan goes on, as that of `LoiterEntry` does.
             with suppress(RadiusTooSmall, WindTooStrong):
                 self._watch(memory.sensing.clock.time_s)
@@ -115,8 +114,8 @@ class FencedEntry(LoiterEntry):
 
     def _watch(self, now_s: float) -> None:
         """Take a clear entry that was found; check the present path, and ask for another if that is not clear."""
-        if is_holding(self._memory.plan.route):
-            self._memory = self._memory._replace(path=no_path())
+        if is_holding(self._planning.plan.route):
+            self._planning = self._planning._replace(path=no_path())
             return
         if self._asked is not None and self._asked.found.done():
             asked, self._asked = self._asked, None
@@ -125,12 +124,12 @@ class FencedEntry(LoiterEntry):
             return
         self._next_check_s = now_s + CHECK_S
         if self._is_followed and (fastest := self._clear_fastest()) is not None:
-            self.follow(fastest, self._memory.response.state)
-            self._memory = self._memory._replace(path=no_path())
+            self.follow(fastest, self._planning.response.state)
+            self._planning = self._planning._replace(path=no_path())
         elif now_s >= self._next_search_s and not self._keeps_clear():
             self._next_search_s = now_s + SEARCH_S
-            state = self._memory.response.state
-            pose, turns = self._here(state), self._memory.sensing.limits.turns
+            state = self._planning.response.state
+            pose, turns = self._here(state), self._memory.limits.turns
             radius_m, margin_m = turns.planned_m, self._margin_at(pose)
             if self._is_tight:
                 radius_m, margin_m = min(radius_m, TIGHT * turns.tightest_m), LESS_MARGIN * margin_m
@@ -140,21 +139,29 @@ class FencedEntry(LoiterEntry):
     # What is known at present.
 
     @property
+    def _planning(self) -> Planning:
+        return self._memory.planning
+
+    @_planning.setter
+    def _planning(self, planning: Planning) -> None:
+        self._memory = self._memory._replace(planning=planning)
+
+    @property
     def _is_followed(self) -> bool:
-        return self._memory.path.total > 0
+        return self._planning.path.total > 0
 
     @property
     def _aircraft(self) -> Aircraft:
         """The aircraft with the turns that are planned."""
-        return self._turning(self._memory.sensing.limits.turns.planned_m)
+        return self._turning(self._memory.limits.turns.planned_m)
 
     def _turning(self, radius_m: float) -> Aircraft:
         """The aircraft with turns of a radius, metres."""
-        return Aircraft(self._memory.sensing.limits.turns.airspeed_m_s, min_turn_radius_m=radius_m)
+        return Aircraft(self._memory.limits.turns.airspeed_m_s, min_turn_radius_m=radius_m)
 
     @property
     def _wind(self) -> Wind:
-        limits = self._memory.sensing.limits
+        limits = self._memory.limits
         return wind_from_velocity(limits.wind_east_m_s, limits.wind_north_m_s)
 
     def _here(self, state: RelativeState) -> Pose:
@@ -163,7 +170,7 @@ class FencedEntry(LoiterEntry):
         return Pose(state.x + self._orbit.east_m, state.y + self._orbit.north_m, heading_of(vx, vy))
 
     def _through_air(self, state: RelativeState) -> tuple[float, float]:
-        limits = self._memory.sensing.limits
+        limits = self._memory.limits
         east, north = state.vx - limits.wind_east_m_s, state.vy - limits.wind_north_m_s
         return flight_velocity(east, north, state.hx, state.hy)
 
@@ -180,13 +187,13 @@ class FencedEntry(LoiterEntry):
 
         On turns before its last one the law banks as steeply as it may.
         """
-        tightest_m = self._memory.sensing.limits.turns.tightest_m
+        tightest_m = self._memory.limits.turns.tightest_m
         fastest = self._fastest(self._aircraft)
         is_clear = self._is_clear(fastest) and self._is_clear(self._fastest(self._turning(tightest_m)))
         return fastest if is_clear else None
 
     def _fastest(self, aircraft: Aircraft) -> Maneuver:
-        return plan(self._here(self._memory.response.state), self._orbit, aircraft, self._wind)
+        return plan(self._here(self._planning.response.state), self._orbit, aircraft, self._wind)
 
     def _is_clear(self, maneuver: Maneuver) -> bool:
         try:
@@ -196,20 +203,20 @@ class FencedEntry(LoiterEntry):
 
     def _keeps_clear(self) -> bool:
         """Whether the present path, and what is flown beside it, stays clear."""
-        memory, limits = self._memory, self._memory.sensing.limits
+        planning, limits = self._planning, self._memory.limits
         if not self._is_followed:
             tightest = self._fastest(self._turning(limits.turns.tightest_m))
             return self._is_clear(self._planned) and self._is_clear(tightest)
-        route, turns = memory.plan.route, limits.turns
+        route, turns = planning.plan.route, limits.turns
         drifted_m = max(LEAST_DRIFT_M, min(DRIFTED_SHARE * self._margin_m, DRIFTED_RADII * turns.planned_m))
         wind = length(limits.wind_east_m_s - route.wind_east_m_s, limits.wind_north_m_s - route.wind_north_m_s)
-        on_path = abs(memory.response.offset.crosstrack) < drifted_m and wind < OTHER_WIND * turns.airspeed_m_s
+        on_path = abs(planning.response.offset.crosstrack) < drifted_m and wind < OTHER_WIND * turns.airspeed_m_s
         return on_path and turns.tightest_m <= route.turn_radius_m * (1.0 + SAME_RADIUS)
 
     @property
     def _planned(self) -> Maneuver:
         """The rest of the plan of the law."""
-        plan, start = self._memory.plan, self._here(self._memory.response.state)
+        plan, start = self._planning.plan, self._here(self._planning.response.state)
         route, here, now_s = plan.route, start, 0.0
         aircraft, wind = (
             self._turning(route.turn_radius_m),
@@ -246,7 +253,7 @@ class FencedEntry(LoiterEntry):
 
     def follow(self, maneuver: Maneuver, state: RelativeState) -> None:
         """Follow a maneuver of at most `MOST_PIECES` pieces, which begins at a state, as it is."""
-        planned_m, memory = maneuver.aircraft.turn_radius_m, self._memory
+        planned_m, planning = maneuver.aircraft.turn_radius_m, self._planning
         pieces = [_piece(each, planned_m) for each in maneuver.segments]
         if not pieces:
             return
@@ -270,8 +277,8 @@ class FencedEntry(LoiterEntry):
             ),
         )
         join_s = state.time_s + total_s
-        present = Plan(route, route.current.time_s, join_s, join_s, memory.plan.searched_s)
-        self._memory = memory._replace(path=path, plan=present, search=end_entry_search(memory.search))
+        present = Plan(route, route.current.time_s, join_s, join_s, planning.plan.searched_s)
+        self._planning = end_search(planning)._replace(path=path, plan=present)
 
 
 @cache

@@ -4,24 +4,15 @@ from __future__ import annotations
 
 from loiter.errors import InvalidArgument, instance, not_negative, positive
 from loiter.guidance.entry import law_step
-from loiter.guidance.entry.law_step import (
-    DELAY_S,
-    GAIN,
-    HOLD,
-    LONGEST_STEP_S,
-    NEGLIGIBLE_WIND,
-    NO_DATA,
-    RESERVE,
-    SMOOTHING_S,
-    Settings,
-)
+from loiter.guidance.entry.law_step import DELAY_S, HOLD, LONGEST_STEP_S, NO_DATA, SMOOTHING_S
+from loiter.guidance.entry.limits import NEGLIGIBLE_WIND, RESERVE, Settings
+from loiter.guidance.entry.tracking import GAIN
 from loiter.guidance.estimation import identification_step
-from loiter.guidance.estimation.bank_history import COVERED_S
+from loiter.guidance.estimation.observer import COVERED_S
 from loiter.guidance.estimation.turn_fits import EXPECTED_TURN_RATIO
-from loiter.guidance.estimation.vehicle import VehicleEstimates, VehicleModel, fly_as_declared
 from loiter.guidance.estimation.wind_fit import DECLARED_WIND_S
 from loiter.guidance.protocol import PHASES, Command, Phase, State
-from loiter.guidance.vehicle.rolling import INSTANT_ROLL, Roll, RollValues
+from loiter.guidance.vehicle import INSTANT_ROLL, Roll, RollValues, VehicleEstimates, VehicleModel, fly_as_declared
 from loiter.planning.model import CALM, Aircraft, Orbit, Turn, Wind, check_held, relative_wind
 from loiter.planning.sides import sign_of
 

@@ -1,12 +1,11 @@
-"""A plan as a path to follow: arcs and straight lines through drifting air, then the circle."""
+"""A plan as a path to follow: arcs and straight lines through drifting air, then the circle, and offsets from it."""
 
 from __future__ import annotations
 
-from math import ceil, sqrt
+from math import atan2, ceil, sqrt
 from typing import Annotated, NamedTuple
 
-from loiter.guidance.entry.entry_planner import PlannedEntry, RelativeState
-from loiter.guidance.entry.path_tracking import PathOffset, arc_offset, flight_velocity, line_offset
+from loiter.guidance.entry.entry_planner import PlannedEntry, RelativeState, flight_velocity
 from loiter.kernel.angles import TWO_PI, angle, arc_rotation, length
 from loiter.kernel.motion import fly
 from loiter.kernel.words import ABSENT, controls
@@ -90,6 +89,39 @@ class Motion(NamedTuple):
     y: float
     vx: float
     vy: float
+
+
+class PathOffset(NamedTuple):
+    """The crosstrack error of a vehicle, positive to the left of the path, its course error, and the path's turn rate.
+
+    The course error is the vehicle's course relative to that of the path. The turn rate is that of the path's course as
+    the vehicle moves along it.
+    """
+
+    crosstrack: float
+    course_error: float
+    path_rate: float
+
+
+def line_offset(x: float, y: float, c: float, s: float, vx: float, vy: float) -> PathOffset:
+    """The offset from a line along the unit vector (c, s) of a vehicle with the velocity (vx, vy).
+
+    The vehicle is at (x, y) relative to a point of the line.
+    """
+    return PathOffset(c * y - s * x, atan2(c * vy - s * vx, c * vx + s * vy), 0.0)
+
+
+def arc_offset(u: int, radius: float, x: float, y: float, vx: float, vy: float) -> PathOffset:
+    """The offset from a circle, flown to the left (u = +1) or right (-1), of a vehicle with the velocity (vx, vy).
+
+    The vehicle is at (x, y) relative to the centre. A holding circle of side +1, clockwise, is flown to the right.
+    """
+    d = length(x, y)
+    # At the centre the direction along the circle is undefined: half a radius is the least distance used.
+    reach = max(d, 0.5 * radius)
+    along, inward = u * (x * vy - y * vx) / reach, -(x * vx + y * vy) / reach
+    # The left side of a left turn is the inside.
+    return PathOffset(u * (radius - d), atan2(u * inward, along), u * along / reach)
 
 
 def route_of(state: RelativeState, entry: PlannedEntry) -> Route:

@@ -9,7 +9,7 @@ from loiter.guidance.entry import law_step
 from loiter.guidance.entry.loiter_entry import LoiterEntry
 from loiter.guidance.entry.slot_step import SlotSettings, advance_in_slot, first_slot_memory, phase_behind
 from loiter.guidance.protocol import State
-from loiter.guidance.vehicle.rolling import Roll
+from loiter.guidance.vehicle import Roll
 from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, Wind
 from loiter.planning.problem import Problem
 from loiter.planning.slot import Slot, phase_at_start

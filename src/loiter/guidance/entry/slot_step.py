@@ -24,7 +24,9 @@ from loiter.guidance.entry.entry_planner import (
     is_complete,
     widest_turn_m,
 )
-from loiter.guidance.entry.law_step import (
+from loiter.guidance.entry.law_step import Memory, conclude, prepare
+from loiter.guidance.entry.limits import Limits, Settings
+from loiter.guidance.entry.plan import (
     ANY,
     LONGEST_BEND,
     LOST_COURSE,
@@ -32,21 +34,17 @@ from loiter.guidance.entry.law_step import (
     ROUNDING_S,
     SWITCH_MARGIN,
     UPDATE_MARGIN,
-    Limits,
-    Memory,
     Plan,
-    Settings,
+    Planning,
     advance_plan,
-    conclude,
     continue_search,
     ends_with,
-    prepare,
     search_from,
 )
 from loiter.guidance.entry.route import Route, is_holding, later_s, route_of
-from loiter.guidance.estimation.vehicle import VehicleModel
+from loiter.guidance.estimation.observer import Sensing
 from loiter.guidance.protocol import State
-from loiter.guidance.vehicle.limits import clip
+from loiter.guidance.vehicle import VehicleModel, clip
 from loiter.kernel.angles import TWO_PI, length
 from loiter.kernel.statuses import Status
 from loiter.kernel.wind.held import time_held, width_held
@@ -133,15 +131,20 @@ def advance_in_slot(
     """Both memories, with the command for the next `dt` seconds: `law_step.advance` with a slot."""
     settings = settings._replace(radius_m=kept.radius_m)
     memory = prepare(memory, settings, vehicle, measurement)
-    memory = continue_search(memory, settings, UNLIMITED)
+    memory = memory._replace(
+        planning=continue_search(memory.planning, settings, memory.limits, memory.sensing, UNLIMITED)
+    )
     clock = memory.sensing.clock
     if clock.since_s == 0.0 and clock.jump_s != 0.0:
         kept = kept._replace(zero_s=kept.zero_s + clock.jump_s)
-    if memory.sensing.is_known and memory.plan.route.side != 0:
+    if memory.sensing.is_known and memory.planning.plan.route.side != 0:
         kept = follow_slot(memory, kept, slot)
         if is_plan_due(memory, kept):
             kept = kept._replace(planned_s=clock.time_s + clock.since_s)
-            memory = plan_into_slot(memory, kept, settings._replace(radius_m=slot.radius_m), slot)
+            given = settings._replace(radius_m=slot.radius_m)
+            memory = memory._replace(
+                planning=plan_into_slot(memory.planning, kept, given, slot, memory.limits, memory.sensing)
+            )
     return conclude(memory, settings, vehicle, dt), kept
 
 
@@ -174,9 +177,9 @@ def follow_slot(memory: Memory, kept: SlotMemory, slot: SlotSettings) -> SlotMem
     A vehicle that moves along the circle faster than the slot does there, in a gust or since its airspeed is another,
     needs a larger radius for the same rate of phase.
     """
-    state, limits, R = memory.response.state, memory.sensing.limits, slot.radius_m
+    state, limits, R = memory.planning.response.state, memory.limits, slot.radius_m
     behind = phase_behind(slot, state.x, state.y, state.time_s - kept.zero_s)
-    if not is_holding(memory.plan.route):
+    if not is_holding(memory.planning.plan.route):
         return kept._replace(behind=behind, radius_m=R)
     share = clip(speed_ratio(slot, state) * (1.0 - PHASE_GAIN * behind) - 1.0, slot.band)
     radius_m, present_m = max(R * (1.0 + share), least_radius_m(limits, slot)), length(state.x, state.y)
@@ -204,44 +207,46 @@ def least_radius_m(limits: Limits, slot: SlotSettings) -> float:
 
 def is_plan_due(memory: Memory, kept: SlotMemory) -> bool:
     """Whether a new plan should be looked for: the last is some time ago, and the slot is not held already."""
-    clock, route = memory.sensing.clock, memory.plan.route
+    clock, route = memory.sensing.clock, memory.planning.plan.route
     if clock.time_s + clock.since_s - kept.planned_s < PLAN_INTERVAL_S - ROUNDING_S:
         return False
-    return not is_holding(route) or abs(kept.behind) > LEAVE or is_lost(memory)
+    return not is_holding(route) or abs(kept.behind) > LEAVE or is_lost(memory.planning, memory.limits)
 
 
-def is_lost(memory: Memory) -> bool:
+def is_lost(planning: Planning, limits: Limits) -> bool:
     """Whether the aircraft is so far off its route that any new plan is better."""
-    offset, r = memory.response.offset, memory.sensing.limits.turns.planned_m
+    offset, r = planning.response.offset, limits.turns.planned_m
     return abs(offset.crosstrack) > LOST_OFFSET * r or abs(offset.course_error) > LOST_COURSE
 
 
-def plan_into_slot(memory: Memory, kept: SlotMemory, settings: Settings, slot: SlotSettings) -> Memory:
+def plan_into_slot(
+    planning: Planning, kept: SlotMemory, settings: Settings, slot: SlotSettings, limits: Limits, sensing: Sensing
+) -> Planning:
     """The memory with the plan that is in the slot soonest: the present one, that into the slot, or the fastest entry.
 
     The law looks for no plan of its own: the last search is in the future.
     """
-    plan, limits, state = memory.plan, memory.sensing.limits, memory.response.state
-    memory = memory._replace(plan=plan._replace(searched_s=inf))
+    plan, state = planning.plan, planning.response.state
+    planning = planning._replace(plan=plan._replace(searched_s=inf))
     unit_s = limits.turns.planned_m / limits.turns.airspeed_m_s
-    present_s = present_cost_s(memory, kept, slot)
-    if kept.planned_s == -inf or is_lost(memory):
+    present_s = present_cost_s(planning, kept, slot)
+    if kept.planned_s == -inf or is_lost(planning, limits):
         present_s = inf
     search = search_from(settings, limits, ANY, state, False)
     into, free = slot_arrival(search, kept, slot), free_arrival(search, kept, slot)
     best = into if cost_s(slot, into) <= cost_s(slot, free) else free
     if best.entry.side == 0:
-        return memory
+        return planning
     route = plan.route
     left = encode(route.current.u, route.second.u, route.third.u)
     same = present_s < inf and ends_with(best.entry, left, LONGEST_BEND * unit_s)
     margin_s = (UPDATE_MARGIN if same else -SWITCH_MARGIN) * unit_s
     if not cost_s(slot, best) < present_s + margin_s:
-        return memory
+        return planning
     entered = route_of(state, best.entry)
     join_s = state.time_s + best.join_s
-    memory = memory._replace(plan=Plan(entered, entered.current.time_s, join_s, join_s, inf))
-    return advance_plan(memory, settings)
+    planning = planning._replace(plan=Plan(entered, entered.current.time_s, join_s, join_s, inf))
+    return advance_plan(planning, settings, limits, sensing)
 
 
 def cost_s(slot: SlotSettings, arrival: Arrival) -> float:
@@ -249,9 +254,9 @@ def cost_s(slot: SlotSettings, arrival: Arrival) -> float:
     return arrival.join_s + closing_s(slot, arrival.behind) if arrival.entry.side != 0 else inf
 
 
-def present_cost_s(memory: Memory, kept: SlotMemory, slot: SlotSettings) -> float:
+def present_cost_s(planning: Planning, kept: SlotMemory, slot: SlotSettings) -> float:
     """The time until the aircraft is in its slot by the present plan."""
-    plan, state = memory.plan, memory.response.state
+    plan, state = planning.plan, planning.response.state
     if is_holding(plan.route):
         return closing_s(slot, kept.behind)
     left_s = plan.remaining_s + later_s(plan.route)

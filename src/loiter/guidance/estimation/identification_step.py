@@ -9,8 +9,7 @@ from __future__ import annotations
 from math import degrees, exp, inf
 from typing import NamedTuple
 
-from loiter.guidance.estimation.clock import FIRST_CLOCK, Clock, advance, check_stamp
-from loiter.guidance.estimation.observer import is_usable
+from loiter.guidance.estimation.observer import FIRST_CLOCK, Clock, advance_clock, check_stamp, is_usable
 from loiter.guidance.estimation.roll_response import (
     NO_ROLL,
     RollMemory,
@@ -22,11 +21,9 @@ from loiter.guidance.estimation.roll_response import (
     start_models,
 )
 from loiter.guidance.estimation.turn_fits import NO_PAIRS, Turns, add_turn, first_lead, first_turns, restart_turns
-from loiter.guidance.estimation.vehicle import VehicleEstimates, VehicleModel, remove_bias
 from loiter.guidance.estimation.wind_fit import WindFit, add_air_velocity, first_wind, is_changing
 from loiter.guidance.protocol import State
-from loiter.guidance.vehicle.rolling import RollValues
-from loiter.guidance.vehicle.turning import rate_at_bank
+from loiter.guidance.vehicle import RollValues, VehicleEstimates, VehicleModel, rate_at_bank, remove_bias
 
 # The airspeed is averaged over the first time, seconds, at most; the declared one counts for the second.
 AIRSPEED_MEMORY_S, DECLARED_AIRSPEED_S = 20.0, 5.0
@@ -160,7 +157,7 @@ def advance_identification(
         memory = memory._replace(roll=fly_models(memory.roll, settings.roll, command_deg, dt))
         waited_s = waited_s + dt
     if is_usable(measurement) and measurement.time_s != clock.time_s:
-        clock, is_new = check_stamp(advance(clock, waited_s), measurement.time_s)
+        clock, is_new = check_stamp(advance_clock(clock, waited_s), measurement.time_s)
         waited_s, since_s = 0.0, measurement.time_s - used_s
         if is_new and not 0.0 < since_s < SHORTEST_GAP_S:
             if used_s == -inf:

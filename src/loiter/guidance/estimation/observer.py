@@ -1,15 +1,160 @@
-"""State estimation for the law: measurements smoothed without lag, and extrapolated to the present."""
+"""State estimation for the law: measurements smoothed without lag, and extrapolated to the present.
+
+Stamps are checked first: a single one may be wrong, and a clock may restart. Measurements are old when they arrive: the
+modelled bank over the last seconds says what they do not show yet.
+"""
 
 from __future__ import annotations
 
-from math import cos, degrees, exp, inf, sin, sqrt
+from math import cos, degrees, exp, inf, nan, sin, sqrt
 from typing import Annotated, NamedTuple
 
-from loiter.guidance.estimation.bank_history import BankHistory, delayed_deg, mean_deg
 from loiter.guidance.protocol import State
-from loiter.guidance.vehicle.turning import PlanarPose, constant_turn, rate_at_bank
+from loiter.guidance.vehicle import PlanarPose, VehicleModel, constant_turn, rate_at_bank, remove_bias
 from loiter.kernel.angles import length
 from loiter.planning.compass import heading_vector
+
+# A stamp is accepted at once unless it is later by more than this, seconds, than the last one plus the time that has
+# passed since. So a law that was not called for an hour continues at once.
+LARGEST_GAP_S = 3600.0
+
+# A clock that has jumped back, or further ahead, is accepted once its stamps have advanced by this, seconds. No single
+# step between them may be larger: two stamps alone do not confirm a clock.
+CONFIRMATION_S = 1.0
+
+
+class Clock(NamedTuple):
+    """The time stamp of the last accepted measurement, `time_s`, -inf before the first.
+
+    `since_s` is the time that has passed since then, summed over the steps. `gap_s` is the time between the last two
+    accepted measurements, and `jump_s` how far the clock jumped between them: 0 unless a new clock was accepted.
+    `first_s` and `latest_s` are stamps of another clock, which is not accepted yet; nan where there is none.
+    """
+
+    time_s: float
+    since_s: float
+    gap_s: float
+    jump_s: float
+    first_s: float
+    latest_s: float
+
+
+FIRST_CLOCK = Clock(-inf, 0.0, inf, 0.0, nan, nan)
+
+
+def advance_clock(clock: Clock, dt: float) -> Clock:
+    """The clock `dt` seconds later."""
+    time_s, since_s, gap_s, jump_s, first_s, latest_s = clock
+    return Clock(time_s, since_s + dt, gap_s, jump_s, first_s, latest_s)
+
+
+def check_stamp(clock: Clock, time_s: float) -> tuple[Clock, bool]:
+    """The clock after a measurement at `time_s`, and whether that is a new one.
+
+    It may be one by this clock, or by another that is confirmed by now.
+    """
+    ahead_s = time_s - clock.time_s
+    if 0.0 < ahead_s <= clock.since_s + LARGEST_GAP_S or clock.time_s == -inf:
+        return Clock(time_s, 0.0, ahead_s, 0.0, nan, nan), True
+    # A stamp that does not fit the earlier ones of the other clock starts the count again.
+    fits = clock.first_s <= time_s <= clock.latest_s + CONFIRMATION_S
+    first_s, latest_s = (clock.first_s, max(clock.latest_s, time_s)) if fits else (time_s, time_s)
+    if latest_s - first_s >= CONFIRMATION_S:
+        return Clock(time_s, 0.0, clock.since_s, ahead_s - clock.since_s, nan, nan), True
+    return Clock(clock.time_s, clock.since_s, clock.gap_s, clock.jump_s, first_s, latest_s), False
+
+
+# The history covers at least this time, seconds, in this many entries.
+COVERED_S, ENTRIES = 2.0, 128
+
+
+class BankEntry(NamedTuple):
+    """The end of a step, the bank then, and the integral of the bank up to then: seconds and degrees."""
+
+    end_s: float
+    bank_deg: float
+    integral: float
+
+
+class BankHistory(NamedTuple):
+    """The last steps in a ring of fixed length, oldest first; unused entries end at -inf.
+
+    Between the ends of steps the bank is interpolated.
+    """
+
+    entries: Annotated[tuple[BankEntry, ...], ENTRIES]
+
+
+def constant_history(bank_deg: float) -> BankHistory:
+    """The history of a bank that has always been this."""
+    unused = (BankEntry(-inf, bank_deg, 0.0),) * ENTRIES
+    return BankHistory((*unused[:-1], BankEntry(0.0, bank_deg, 0.0)))
+
+
+def record_bank(history: BankHistory, bank_deg: float, dt: float, covered_s: float = COVERED_S) -> BankHistory:
+    """The history with another step of `dt` seconds and the bank at its end; it covers at least `covered_s`.
+
+    Once the ring is full, steps that are so short that it would not cover that time are joined: two entries that follow
+    each other then last longer than twice that time divided by their number.
+    """
+    entries, dt = history.entries, min(dt, covered_s)
+    last = entries[-1]
+    entry = BankEntry(last.end_s + dt, bank_deg, last.integral + dt * 0.5 * (last.bank_deg + bank_deg))
+    if entry.end_s - entries[-2].end_s > 2.0 * covered_s / ENTRIES or entries[0].end_s == -inf:
+        return BankHistory((*entries[1:], entry))
+    return BankHistory((*entries[:-1], entry))
+
+
+def index_at(history: BankHistory, time_s: float) -> int:
+    """The index of the first entry that ends at a time or later."""
+    entries, low, high = history.entries, 0, ENTRIES - 1
+    while low < high:
+        middle = (low + high) >> 1
+        if entries[middle].end_s < time_s:
+            low = middle + 1
+        else:
+            high = middle
+    return low
+
+
+def bank_within(history: BankHistory, index: int, time_s: float) -> float:
+    """The bank at a time within an entry, between those at its ends; before the first entry it was constant."""
+    entry = history.entries[index]
+    if index == 0:
+        return entry.bank_deg
+    before = history.entries[index - 1]
+    if before.end_s == -inf or entry.end_s <= before.end_s:
+        return entry.bank_deg
+    return entry.bank_deg - (entry.end_s - time_s) / (entry.end_s - before.end_s) * (entry.bank_deg - before.bank_deg)
+
+
+def present_deg(history: BankHistory) -> float:
+    """The bank at the end of the last step."""
+    return history.entries[-1].bank_deg
+
+
+def delayed_deg(history: BankHistory, delay_s: float) -> float:
+    """The bank `delay_s` seconds ago."""
+    if delay_s <= 0.0:
+        return present_deg(history)
+    then_s = history.entries[-1].end_s - delay_s
+    return bank_within(history, index_at(history, then_s), then_s)
+
+
+def mean_deg(history: BankHistory, delay_s: float) -> float:
+    """The mean bank over the last `delay_s` seconds."""
+    if delay_s <= 0.0:
+        return present_deg(history)
+    last = history.entries[-1]
+    then_s = last.end_s - delay_s
+    index = index_at(history, then_s)
+    first, bank_deg = history.entries[index], bank_within(history, index, then_s)
+    return (last.integral - first.integral + (first.end_s - then_s) * 0.5 * (bank_deg + first.bank_deg)) / delay_s
+
+
+# Until the next measurement arrives the last one is extrapolated, but no longer than this, seconds; older ones are not
+# averaged with new ones.
+EXTRAPOLATED_S = 3.0
 
 # How fast the velocity of the air changes is measured from its differences over this time, seconds, averaged over the
 # second time.
@@ -95,13 +240,13 @@ def estimate_at_present(estimate: Estimate, history: BankHistory, delay_s: float
     time_s, pose, V, last_rate, bank_deg, east, north, turning = estimate
     error_deg = bank_deg - delayed_deg(history, delay_s)
     mean_rate = turn_rate_at(turning, mean_deg(history, delay_s) + error_deg, V)
-    present_deg = history.current_deg + error_deg
-    present_rate = turn_rate_at(turning, present_deg, V)
+    now_deg = present_deg(history) + error_deg
+    present_rate = turn_rate_at(turning, now_deg, V)
     # The slip changes with the turn rate, and with it the direction of flight.
     pose = _rotated(pose, turning.lead_s * (mean_rate - last_rate))
     pose = constant_turn(pose, V, mean_rate, delay_s, (east, north))
     pose = _rotated(pose, turning.lead_s * (present_rate - mean_rate))
-    return Estimate(time_s + delay_s, pose, V, present_rate, present_deg, east, north, turning)
+    return Estimate(time_s + delay_s, pose, V, present_rate, now_deg, east, north, turning)
 
 
 def is_plausible(state: State) -> bool:
@@ -372,3 +517,75 @@ def _rotated(pose: PlanarPose, angle: float) -> PlanarPose:
     x, y, c, s = pose
     cosine, sine = cos(angle), sin(angle)
     return PlanarPose(x, y, c * cosine - s * sine, s * cosine + c * sine)
+
+
+class Sensing(NamedTuple):
+    """What is known of the present: the clock, the observer and the modelled bank.
+
+    `present` is the last estimate of the present state, `elapsed_s` the time since then, and `model_error_deg` how far
+    its bank was from the modelled one. `is_known` says whether the estimate is of this step.
+    """
+
+    clock: Clock
+    observer: Observer
+    history: BankHistory
+    present: Estimate
+    bank_rate_deg_s: float
+    elapsed_s: float
+    model_error_deg: float
+    is_known: bool
+
+
+def first_sensing(smoothing_s: float, bank_deg: float) -> Sensing:
+    """What is known before the first measurement, at a bank."""
+    return Sensing(
+        clock=FIRST_CLOCK,
+        observer=first_observer(smoothing_s),
+        history=constant_history(bank_deg),
+        present=NO_ESTIMATE,
+        bank_rate_deg_s=0.0,
+        elapsed_s=0.0,
+        model_error_deg=0.0,
+        is_known=False,
+    )
+
+
+def sense(
+    sensing: Sensing, vehicle: VehicleModel, measurement: State, step_s: float, smoothing_s: float, covered_s: float
+) -> Sensing:
+    """What is known at a measurement, `step_s` seconds after the last.
+
+    `smoothing_s` is the shortest smoothing time, `covered_s` what the history of banks has to cover. Telemetry may be
+    slower than the steps: until the next measurement, but no longer than `EXTRAPOLATED_S`, the last estimate is
+    extrapolated with the modelled bank.
+    """
+    clock, observer, history, present, _, elapsed_s, error_deg, _ = sensing
+    rate_deg_s = vehicle.bank_rate_deg_s
+    if step_s > 0.0:
+        clock, elapsed_s = advance_clock(clock, step_s), elapsed_s + step_s
+        history = record_bank(history, vehicle.bank_deg, step_s, covered_s)
+    if not is_usable(measurement):
+        return Sensing(clock, observer, history, present, rate_deg_s, elapsed_s, error_deg, False)
+    if measurement.time_s == clock.time_s:
+        if present.airspeed_m_s == 0.0 or clock.since_s > EXTRAPOLATED_S:
+            return Sensing(clock, observer, history, present, rate_deg_s, elapsed_s, error_deg, False)
+        present = estimate_after(estimate_with_bank(present, present_deg(history) + error_deg), elapsed_s)
+        return Sensing(clock, observer, history, present, rate_deg_s, 0.0, error_deg, True)
+    is_first = clock.time_s == -inf
+    clock, is_new = check_stamp(clock, measurement.time_s)
+    if not is_new:
+        return Sensing(clock, observer, history, present, rate_deg_s, elapsed_s, error_deg, False)
+    if is_first:
+        history = constant_history(vehicle.bank_deg)
+    if clock.jump_s != 0.0 or clock.gap_s > EXTRAPOLATED_S:
+        observer = restart(observer)
+    known = vehicle.estimates
+    turning, bank_deg = Turning(known.turn_ratio, known.course_lead_s), delayed_deg(history, known.delay_s)
+    observer = observe(observer, remove_bias(known, measurement), bank_deg, smoothing_s, turning)
+    present = estimate_at_present(observer.estimate, history, known.delay_s)
+    return Sensing(clock, observer, history, present, rate_deg_s, 0.0, present.bank_deg - present_deg(history), True)
+
+
+def measure_gusts_anew(sensing: Sensing) -> Sensing:
+    """What is known, without the gusts: the turns before the circle look like gusts."""
+    return sensing._replace(observer=restart_gusts(sensing.observer))

@@ -18,8 +18,7 @@ from __future__ import annotations
 from math import ceil, exp, inf, log, sqrt
 from typing import Annotated, NamedTuple
 
-from loiter.guidance.vehicle.limits import clip
-from loiter.guidance.vehicle.rolling import Bank, RollValues, roll_after
+from loiter.guidance.vehicle import Bank, RollValues, clip, roll_after
 
 # The models: so many time constants and rate limits, of which each is the next multiple of the one before it; the
 # declared ones have these indices.

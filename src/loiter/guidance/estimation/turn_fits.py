@@ -5,11 +5,9 @@ from __future__ import annotations
 from math import atan2, cos, degrees, exp, nan, radians
 from typing import NamedTuple
 
-from loiter.guidance.estimation.vehicle import VehicleEstimates
 from loiter.guidance.estimation.wind_fit import WindFit
 from loiter.guidance.protocol import State
-from loiter.guidance.vehicle.limits import clip
-from loiter.guidance.vehicle.turning import rate_at_bank
+from loiter.guidance.vehicle import VehicleEstimates, clip, rate_at_bank
 from loiter.planning.compass import heading_vector
 
 # The bounds of ratios of turns.

@@ -10,11 +10,10 @@ from math import degrees, nan, radians, tan
 from typing import NamedTuple
 
 from loiter.errors import positive
+from loiter.guidance.circle import Band, CircleOffset
 from loiter.guidance.estimation.observer import is_plausible
 from loiter.guidance.protocol import Command, Phase, State
-from loiter.guidance.vehicle.circle import Band, CircleOffset
-from loiter.guidance.vehicle.limits import clip
-from loiter.guidance.vehicle.turning import bank_at_rate, rate_at_bank
+from loiter.guidance.vehicle import bank_at_rate, clip, rate_at_bank
 from loiter.planning.model import (
     CALM,
     STANDARD_GRAVITY_M_S2,

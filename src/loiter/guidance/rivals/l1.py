@@ -12,10 +12,10 @@ from __future__ import annotations
 from math import atan2, cos, pi, radians, sin
 
 from loiter.errors import positive
+from loiter.guidance.circle import CircleOffset, circle_offset
 from loiter.guidance.protocol import State
 from loiter.guidance.rivals.following import Demand, Follower, demand_phase
-from loiter.guidance.vehicle.circle import CircleOffset, circle_offset
-from loiter.guidance.vehicle.limits import clip
+from loiter.guidance.vehicle import clip
 from loiter.planning.compass import heading_vector
 from loiter.planning.model import Aircraft, Orbit, Wind
 

@@ -16,10 +16,10 @@ from math import atan2, inf, pi, remainder
 from typing import NamedTuple
 
 from loiter.errors import not_negative
+from loiter.guidance.circle import CircleOffset, circle_offset, offset_at
 from loiter.guidance.protocol import State, phase_of_control
 from loiter.guidance.rivals.following import Demand
 from loiter.guidance.rivals.l1 import DAMPING, L1, SHORTEST_PERIOD_S, circle_demand
-from loiter.guidance.vehicle.circle import CircleOffset, circle_offset, offset_at
 from loiter.kernel.motion import fly
 from loiter.kernel.wind import wind_search
 from loiter.kernel.wind.hold import phase_of, tightest_radius

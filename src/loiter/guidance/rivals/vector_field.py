@@ -18,10 +18,10 @@ from math import atan, atan2, cos, pi, radians, remainder, sqrt
 from typing import NamedTuple
 
 from loiter.errors import positive
+from loiter.guidance.circle import AT_CENTRE_M, CircleOffset, circle_offset
 from loiter.guidance.protocol import State
 from loiter.guidance.rivals.following import Demand, Follower, demand_phase
-from loiter.guidance.vehicle.circle import AT_CENTRE_M, CircleOffset, circle_offset
-from loiter.guidance.vehicle.limits import clip
+from loiter.guidance.vehicle import clip
 from loiter.planning.model import Aircraft, Orbit, Wind
 
 # The default roll time constant for which the gains are advised, seconds.

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from loiter.guidance.simulators.inner_loops import Gains
-from loiter.guidance.vehicle.rolling import Roll
+from loiter.guidance.vehicle import Roll
 from loiter.planning.model import Aircraft
 
 MODELS = Path(__file__).parent / "models"

@@ -10,7 +10,7 @@ from __future__ import annotations
 from math import cos, radians, sin, tan
 from typing import NamedTuple
 
-from loiter.guidance.vehicle.limits import clip
+from loiter.guidance.vehicle import clip
 from loiter.planning.model import STANDARD_GRAVITY_M_S2
 
 # The largest rate of climb or descent that corrects the altitude, metres per second.

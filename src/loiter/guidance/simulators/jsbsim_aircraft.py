@@ -22,8 +22,7 @@ from loiter.guidance.simulators.airframes import Airframe
 from loiter.guidance.simulators.gusts import FOOT_M
 from loiter.guidance.simulators.inner_loops import InnerLoops, LoopInputs, Surfaces
 from loiter.guidance.simulators.sensors import Noise, Sensors
-from loiter.guidance.vehicle.limits import clip
-from loiter.guidance.vehicle.rolling import Roll
+from loiter.guidance.vehicle import Roll, clip
 from loiter.planning.compass import heading_vector, wrapped
 from loiter.planning.model import CALM, Pose, Turn, Wind
 

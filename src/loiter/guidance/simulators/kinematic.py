@@ -6,8 +6,7 @@ from math import radians
 
 from loiter.errors import not_negative
 from loiter.guidance.protocol import Command, State
-from loiter.guidance.vehicle.limits import clip
-from loiter.guidance.vehicle.turning import PlanarPose, bank_at_rate, constant_turn
+from loiter.guidance.vehicle import PlanarPose, bank_at_rate, clip, constant_turn
 from loiter.planning.compass import heading_of, heading_vector
 from loiter.planning.model import CALM, Aircraft, Pose, Wind
 

@@ -9,9 +9,7 @@ from loiter.guidance.protocol import Command, State
 from loiter.guidance.simulators.gusts import Gusts, scale_length_m
 from loiter.guidance.simulators.roll_dynamics import FirstOrderRoll, RollDynamics, RollResponse, SecondOrderRoll
 from loiter.guidance.simulators.sensors import Noise, Sensors
-from loiter.guidance.vehicle.limits import clip
-from loiter.guidance.vehicle.rolling import Roll
-from loiter.guidance.vehicle.turning import PlanarPose, constant_turn, rate_at_bank
+from loiter.guidance.vehicle import PlanarPose, Roll, clip, constant_turn, rate_at_bank
 from loiter.planning.compass import heading_of, heading_vector
 from loiter.planning.model import CALM, Aircraft, Pose, Wind
 

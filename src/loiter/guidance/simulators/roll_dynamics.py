@@ -12,8 +12,7 @@ from math import cos, exp, hypot, log, pi, sin, sqrt
 from typing import Protocol
 
 from loiter.errors import not_negative, positive, share
-from loiter.guidance.vehicle.limits import clip
-from loiter.guidance.vehicle.rolling import Roll
+from loiter.guidance.vehicle import Roll, clip
 
 # The share of a step response by which its time constant is defined: 1 - 1/e.
 RISE = 1.0 - exp(-1.0)

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 import numpy as np
 
 from loiter.errors import InvalidArgument
+from loiter.guidance.circle import Band
 from loiter.guidance.entry.loiter_entry import LoiterEntry
 from loiter.guidance.protocol import Law, Simulator
 from loiter.guidance.rivals.l1 import L1, advised_period_s
@@ -22,8 +23,7 @@ from loiter.guidance.simulators.kinematic import Kinematic
 from loiter.guidance.simulators.point_mass import PointMass
 from loiter.guidance.simulators.sensors import Noise
 from loiter.guidance.trials.flight import LIMIT_S, STEP_S, Flight, fly
-from loiter.guidance.vehicle.circle import Band
-from loiter.guidance.vehicle.rolling import Roll
+from loiter.guidance.vehicle import Roll
 from loiter.kernel.wind.hold import tightest_radius
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Wind, relative_wind

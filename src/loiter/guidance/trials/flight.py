@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from loiter.errors import positive
+from loiter.guidance.circle import Band, circle_offset
 from loiter.guidance.protocol import Command, Law, Phase, Simulator, State
 from loiter.guidance.trials.settling import SettlingMonitor
-from loiter.guidance.vehicle.circle import Band, circle_offset
 from loiter.planning.model import Orbit
 
 if TYPE_CHECKING:

@@ -7,6 +7,7 @@ from functools import partial
 from typing import NamedTuple
 
 from loiter.errors import not_negative
+from loiter.guidance.circle import Band
 from loiter.guidance.entry.loiter_entry import LoiterEntry
 from loiter.guidance.protocol import Law, Simulator
 from loiter.guidance.simulators.airframes import Airframe
@@ -18,7 +19,6 @@ from loiter.guidance.trials.campaign import (
     kinematic,
     point_mass,
 )
-from loiter.guidance.vehicle.circle import Band
 
 # Gusts of at least this share of the airspeed count as heavy, and the settling band is wider: in such gusts no law
 # stays within the standard band.

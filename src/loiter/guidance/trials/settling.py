@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from math import isnan, nan, remainder
 
+from loiter.guidance.circle import Band, CircleOffset, circle_offset
 from loiter.guidance.protocol import State
-from loiter.guidance.vehicle.circle import Band, CircleOffset, circle_offset
 from loiter.planning.model import Orbit, Turn
 
 # The directions of holding that count: +1 clockwise, -1 counter-clockwise.

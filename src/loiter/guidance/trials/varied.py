@@ -14,7 +14,7 @@ from loiter.guidance.simulators.point_mass import PointMass
 from loiter.guidance.simulators.roll_dynamics import RollResponse
 from loiter.guidance.simulators.sensors import Noise
 from loiter.guidance.trials.campaign import Trial, random_entry, random_trials
-from loiter.guidance.vehicle.rolling import Roll
+from loiter.guidance.vehicle import Roll
 from loiter.planning.model import CALM, Aircraft, Wind
 
 if TYPE_CHECKING:

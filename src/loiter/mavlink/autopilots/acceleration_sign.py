@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections import deque
 from math import inf
 
-from loiter.guidance.vehicle.rolling import Roll
+from loiter.guidance.vehicle import Roll
 
 # The first version, major and minor, whose releases turn towards the acceleration.
 MENDED = (1, 18)

@@ -10,7 +10,7 @@ from enum import Enum
 from math import nan
 from typing import NamedTuple
 
-from loiter.guidance.vehicle.rolling import Roll
+from loiter.guidance.vehicle import Roll
 from loiter.io.missions.items import Autopilot
 from loiter.io.missions.mission import BANK_LIMIT
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from math import cos, hypot, inf, isfinite, nan, radians, sin, sqrt, tan
 
-from loiter.guidance.vehicle.limits import clip
+from loiter.guidance.vehicle import clip
 from loiter.mavlink.autopilots.acceleration_sign import AccelerationSign
 from loiter.mavlink.connection.dead_reckoning import GroundMotion, motion_after
 from loiter.mavlink.connection.link import Link, Vehicle, dialect

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import atan2, degrees, hypot
 from typing import NamedTuple
 
-from loiter.guidance.vehicle.turning import PlanarPose, constant_turn
+from loiter.guidance.vehicle import PlanarPose, constant_turn
 from loiter.mavlink.connection.telemetry import Motion
 from loiter.planning.compass import heading_vector
 from loiter.planning.model import CALM, Pose, Wind

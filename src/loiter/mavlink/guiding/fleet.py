@@ -21,7 +21,7 @@ from typing import Any, NamedTuple
 from loiter.batch.fleets import FleetVehicle
 from loiter.errors import InvalidArgument, LinkFailed, LoiterError, not_negative
 from loiter.guidance.protocol import State
-from loiter.guidance.vehicle.turning import rate_at_bank
+from loiter.guidance.vehicle import rate_at_bank
 from loiter.mavlink.connection.dead_reckoning import GroundMotion, motion_after
 from loiter.mavlink.connection.link import check_target
 from loiter.mavlink.guiding.guide import Target, checked_request, guide_request

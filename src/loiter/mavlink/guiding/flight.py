@@ -13,9 +13,8 @@ from loiter.guidance.entry.fenced_entry import FencedEntry
 from loiter.guidance.entry.loiter_entry import LoiterEntry
 from loiter.guidance.entry.slot_entry import SlotEntry
 from loiter.guidance.estimation.turn_fits import bounded_turn_ratio
-from loiter.guidance.estimation.vehicle import VehicleEstimates
 from loiter.guidance.protocol import Command, Phase, State
-from loiter.guidance.vehicle.limits import clip
+from loiter.guidance.vehicle import VehicleEstimates, clip
 from loiter.mavlink.autopilots.acceleration_sign import AccelerationSign, sign_of_version
 from loiter.mavlink.autopilots.modes import GUIDED, HOLD, OFFBOARD
 from loiter.mavlink.autopilots.steering import AccelerationSteering, RollSteering, Steering

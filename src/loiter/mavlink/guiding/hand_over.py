@@ -22,10 +22,9 @@ from math import atan, atan2, cos, degrees, hypot, pi, radians, sin, tan
 from typing import NamedTuple
 
 from loiter.errors import LoiterError
-from loiter.guidance.estimation.vehicle import VehicleEstimates
+from loiter.guidance.circle import circle_offset
 from loiter.guidance.protocol import State
-from loiter.guidance.vehicle.circle import circle_offset
-from loiter.guidance.vehicle.limits import clip
+from loiter.guidance.vehicle import VehicleEstimates, clip
 from loiter.mavlink.guiding.settling import MeanPosition
 from loiter.mavlink.missions.flown_radius import loiter_scaling
 from loiter.planning.hold import hold

@@ -10,7 +10,7 @@ from __future__ import annotations
 from math import atan, degrees, hypot, isnan, nan, radians, tan
 from typing import NamedTuple
 
-from loiter.guidance.estimation.vehicle import VehicleEstimates
+from loiter.guidance.vehicle import VehicleEstimates
 from loiter.kernel.wind.hold import tightest_radius
 from loiter.planning.model import radius_at_bank
 

@@ -13,7 +13,7 @@ from loiter.fences import ClearEntry, Fence, PlacedFence, clear_entry
 from loiter.geo import LocalFrame
 from loiter.geo.atmosphere import eas2tas_squared
 from loiter.guidance.entry.fenced_entry import search_process
-from loiter.guidance.entry.law_step import NEGLIGIBLE_WIND
+from loiter.guidance.entry.limits import NEGLIGIBLE_WIND
 from loiter.guidance.entry.slot_entry import BAND
 from loiter.guidance.protocol import State
 from loiter.mavlink.autopilots.readiness import refusal

@@ -6,8 +6,8 @@ from enum import StrEnum
 from math import nan
 from typing import NamedTuple
 
-from loiter.guidance.estimation.vehicle import VehicleEstimates
 from loiter.guidance.protocol import Phase, State
+from loiter.guidance.vehicle import VehicleEstimates
 from loiter.mavlink.guiding.measurements import AirspeedSource
 from loiter.planning.model import Turn
 

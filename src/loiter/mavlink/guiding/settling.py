@@ -5,9 +5,9 @@ from __future__ import annotations
 from math import degrees, exp, isnan, nan, remainder
 from typing import NamedTuple
 
+from loiter.guidance.circle import Band, CircleOffset, circle_offset
 from loiter.guidance.protocol import State
-from loiter.guidance.vehicle.circle import Band, CircleOffset, circle_offset
-from loiter.guidance.vehicle.turning import rate_at_bank
+from loiter.guidance.vehicle import rate_at_bank
 from loiter.planning.model import Orbit
 from loiter.planning.sides import sign_of
 

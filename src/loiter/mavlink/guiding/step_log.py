@@ -11,8 +11,8 @@ from math import nan
 from pathlib import Path
 
 from loiter.errors import InvalidArgument, MissingPackage
-from loiter.guidance.estimation.vehicle import VehicleEstimates
 from loiter.guidance.protocol import State
+from loiter.guidance.vehicle import VehicleEstimates
 from loiter.io.flight_log import TEXTS, LogRow, LogWriter
 from loiter.mavlink.guiding.report import GuideReport
 from loiter.planning.model import Orbit

@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
+from loiter.guidance.circle import Band, CircleOffset, circle_offset
 from loiter.guidance.protocol import State
-from loiter.guidance.vehicle.circle import Band, CircleOffset, circle_offset
 from loiter.planning.compass import heading_vector
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Turn

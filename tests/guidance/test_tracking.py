@@ -6,13 +6,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from loiter.guidance.entry.path_tracking import (
-    air_rate,
-    arc_offset,
-    course_rate,
-    flight_velocity,
-    line_offset,
-)
+from loiter.guidance.entry.entry_planner import flight_velocity
+from loiter.guidance.entry.route import arc_offset, line_offset
+from loiter.guidance.entry.tracking import air_rate, course_rate
 from loiter.kernel.motion import fly
 from loiter.kernel.wind.hold import hold_pose, hold_rate, tightest_radius
 from strategies import one_way

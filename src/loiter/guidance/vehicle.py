@@ -1,13 +1,66 @@
-"""The roll response of an aircraft: a first-order lag with a limited roll rate, and how long it delays a turn."""
+"""The vehicle as laws and simulators model it: how it turns and rolls, and what a law believes of it."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import exp, inf, log, radians, sqrt, tan
+from math import atan, cos, degrees, exp, inf, log, radians, sin, sqrt, tan
 from typing import NamedTuple
 
 from loiter.errors import InvalidArgument, as_float, not_negative
-from loiter.guidance.vehicle.limits import clip
+from loiter.guidance.protocol import State
+from loiter.planning.model import STANDARD_GRAVITY_M_S2
+
+# A turn through a smaller angle, radians, is flown as a straight line: the difference is below the rounding error.
+SMALLEST_TURN = 2.0**-54
+
+# The velocity of still air, east and north.
+STILL = 0.0, 0.0
+
+
+class PlanarPose(NamedTuple):
+    """A position, metres east (x) and north (y), and the heading as a unit vector (c, s), east and north."""
+
+    x: float
+    y: float
+    c: float
+    s: float
+
+
+def constant_turn(
+    pose: PlanarPose, speed: float, rate: float, time: float, air: tuple[float, float] = STILL
+) -> PlanarPose:
+    """The exact pose after `time` at constant speed and turn rate (radians per second, positive to the left).
+
+    The air moves with the velocity `air`, east and north. The displacement through it is the chord of the arc, along
+    the velocity at half time: `kernel.motion.fly`, but the heading turns twice by half the angle, which needs one sine
+    and one cosine, since a law turns poses several times a step.
+    """
+    (x, y, c, s), (east, north) = pose, air
+    x, y = x + east * time, y + north * time
+    half = 0.5 * rate * time
+    if abs(half) < SMALLEST_TURN:
+        return PlanarPose(x + speed * time * c, y + speed * time * s, c, s)
+    ch, sh = cos(half), sin(half)
+    c, s = c * ch - s * sh, s * ch + c * sh
+    chord = 2.0 * speed / rate * sh
+    return PlanarPose(x + chord * c, y + chord * s, c * ch - s * sh, s * ch + c * sh)
+
+
+def rate_at_bank(bank_deg: float, airspeed_m_s: float) -> float:
+    """Turn rate of a coordinated turn, radians per second, with the sign of the bank: g tan(bank)/V."""
+    return STANDARD_GRAVITY_M_S2 * tan(radians(bank_deg)) / airspeed_m_s
+
+
+def bank_at_rate(rate: float, airspeed_m_s: float) -> float:
+    """Bank of a coordinated turn, degrees, from its rate in radians per second: the inverse of `rate_at_bank`."""
+    return degrees(atan(rate * airspeed_m_s / STANDARD_GRAVITY_M_S2))
+
+
+def clip(value: float, limit: float) -> float:
+    """`value`, limited to the range from -`limit` to `limit`."""
+    # Comparisons take a third of the time of `min` and `max`, and a law clips several values in each step.
+    return limit if value > limit else -limit if value < -limit else value
+
 
 # The commanded change of bank is this many times the change that is wanted, where the limits leave room, but no more
 # than makes the time constant this, seconds: a roll that is quick gains nothing, and errors would be amplified.
@@ -149,17 +202,37 @@ def bank_after(roll_time_s: float, rate_deg_s: float, bank_deg: float, command_d
     return command_deg - missing if time_s <= limited_s else command_deg
 
 
+class RollStep(NamedTuple):
+    """A short step of a bank whose rate has a lag: its time, seconds, and the share of the present rate.
+
+    `kept` is the share at the end of the step, `share` that on average in the change of bank.
+    """
+
+    time_s: float
+    kept: float
+    share: float
+
+
+def roll_step(roll: RollValues, time_s: float) -> RollStep:
+    """The step of a time above 0."""
+    kept, lags = exp(-time_s / roll.lag_s), time_s / roll.lag_s
+    # The difference of large numbers for a short time, of which this is the series.
+    return RollStep(time_s, kept, 0.5 - lags / 12.0 if lags < SHORT_LAGS else 1.0 / lags - kept / (1.0 - kept))
+
+
+def lagging_after(roll: RollValues, step: RollStep, now: Bank, command_deg: float) -> Bank:
+    """The bank after a step under a constant command, where its rate has a lag."""
+    wanted_deg_s = (command_deg - now.bank_deg - 0.5 * step.time_s * now.rate_deg_s) / roll.time_s
+    rate_deg_s = clip(wanted_deg_s + step.kept * (now.rate_deg_s - wanted_deg_s), roll.rate_deg_s)
+    change_deg = step.time_s * (rate_deg_s + step.share * (now.rate_deg_s - rate_deg_s))
+    return Bank(now.bank_deg + change_deg, rate_deg_s)
+
+
 def roll_after(roll: RollValues, now: Bank, command_deg: float, time_s: float) -> Bank:
     """The bank after a short time under a constant command; exact without a lag of the bank rate."""
     if roll.lag_s == 0.0 or time_s == 0.0:
         return Bank(bank_after(roll.time_s, roll.rate_deg_s, now.bank_deg, command_deg, time_s), now.rate_deg_s)
-    kept = exp(-time_s / roll.lag_s)
-    wanted_deg_s = (command_deg - now.bank_deg - 0.5 * time_s * now.rate_deg_s) / roll.time_s
-    rate_deg_s = clip(wanted_deg_s + kept * (now.rate_deg_s - wanted_deg_s), roll.rate_deg_s)
-    lags = time_s / roll.lag_s
-    # The difference of large numbers for a short time, of which this is the series.
-    share = 0.5 - lags / 12.0 if lags < SHORT_LAGS else 1.0 / lags - kept / (1.0 - kept)
-    return Bank(now.bank_deg + time_s * (rate_deg_s + share * (now.rate_deg_s - rate_deg_s)), rate_deg_s)
+    return lagging_after(roll, roll_step(roll, time_s), now, command_deg)
 
 
 def turn_delay(roll: RollValues, now: Bank, target_deg: float, limit_deg: float) -> TurnDelay:
@@ -175,15 +248,16 @@ def lagging_delay(roll: RollValues, now: Bank, target_deg: float, limit_deg: flo
     missing_s, moment_s2, time_s, is_limited, left = 0.0, 0.0, 0.0, True, STEPS
     small_deg, now = small_change_deg(roll), Bank(now.bank_deg, clip(now.rate_deg_s, roll.rate_deg_s))
     dt = (abs(target_deg - now.bank_deg) / roll.rate_deg_s + SETTLING * (roll.time_s + braking_s)) / STEPS
+    half_step, step = roll_step(roll, 0.5 * dt), roll_step(roll, dt)
     while left > 0:
         change_deg = gain * (target_deg - now.bank_deg) - braking_s * now.rate_deg_s
         is_limited = abs(now.bank_deg + change_deg) > limit_deg
         if not is_limited and abs(target_deg - now.bank_deg) + roll.lag_s * abs(now.rate_deg_s) < small_deg:
             break
-        half = roll_after(roll, now, clip(now.bank_deg + change_deg, limit_deg), 0.5 * dt)
+        half = lagging_after(roll, half_step, now, clip(now.bank_deg + change_deg, limit_deg))
         # The demand at half time counts for the whole step.
         change_deg = gain * (target_deg - half.bank_deg) - braking_s * half.rate_deg_s
-        after = roll_after(roll, now, clip(half.bank_deg + change_deg, limit_deg), dt)
+        after = lagging_after(roll, step, now, clip(half.bank_deg + change_deg, limit_deg))
         part_s = dt * (tangent - tan(radians(0.5 * (now.bank_deg + after.bank_deg))))
         missing_s, moment_s2 = missing_s + part_s, moment_s2 + part_s * (time_s + 0.5 * dt)
         now, time_s, left = after, time_s + dt, left - 1
@@ -272,3 +346,58 @@ def small_onset(roll: RollValues) -> TurnOnset:
     gain = command_gain(roll.time_s)
     first_s = (roll.time_s + rate_gain_s(roll)) / gain
     return TurnOnset(first_s, max(first_s * first_s - 2.0 * roll.time_s * roll.lag_s / gain, 0.0))
+
+
+class VehicleEstimates(NamedTuple):
+    """What a law believes of its vehicle.
+
+    The roll response; the delay, seconds, between a command and the measurement that first shows it; the turn rate
+    divided by g tan(bank)/V, in steady turns and where the bank changes within a second; the time, seconds, by which
+    the direction of flight is ahead of the heading in a turn; the steady wind towards the east and the north, and the
+    true airspeed, metres per second, in all and in the tightest turns: autopilots do not hold it exactly there. By
+    how many degrees the bank has lately overshot the bank limit, beyond `NORMAL_OVERSHOOT_DEG`; and the share of what
+    is declared in the airspeed of tight turns, 1 before the first one. What the measured heading and the measured bank
+    exceed the true ones by, degrees.
+    """
+
+    roll: RollValues
+    delay_s: float
+    turn_ratio: float
+    quick_turn_ratio: float
+    course_lead_s: float
+    wind_east_m_s: float
+    wind_north_m_s: float
+    airspeed_m_s: float
+    turn_airspeed_m_s: float
+    overshoot_deg: float
+    turns_unknown: float
+    heading_bias_deg: float
+    bank_bias_deg: float
+
+
+class VehicleModel(NamedTuple):
+    """What a step of the law gets to know: the estimates, and the bank that is modelled for the present, degrees.
+
+    `revision` is another number whenever the estimates are others.
+    """
+
+    revision: int
+    bank_deg: float
+    bank_rate_deg_s: float
+    estimates: VehicleEstimates
+
+
+def remove_bias(known: VehicleEstimates, state: State) -> State:
+    """A measured state without the biases of heading and bank."""
+    heading_bias_deg, bank_bias_deg = known.heading_bias_deg, known.bank_bias_deg
+    if heading_bias_deg == 0.0 and bank_bias_deg == 0.0:
+        return state
+    time_s, x, y, heading_deg, bank_deg, east, north, V = state
+    return State(time_s, x, y, heading_deg - heading_bias_deg, bank_deg - bank_bias_deg, east, north, V)
+
+
+def fly_as_declared(vehicle: VehicleModel, command_deg: float, dt: float) -> VehicleModel:
+    """The model of a vehicle that is as declared after `dt` seconds under a command; `identify` is not needed then."""
+    revision, bank_deg, rate_deg_s, known = vehicle
+    bank_deg = bank_after(known.roll.time_s, known.roll.rate_deg_s, bank_deg, command_deg, dt)
+    return VehicleModel(revision, bank_deg, rate_deg_s, known)

@@ -1,1 +1,0 @@
-"""The model of the aircraft that laws and simulators share: turn rates, bank limits and roll response."""
