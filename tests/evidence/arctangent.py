@@ -16,6 +16,7 @@ coefficients are compared with the series of the arctangent.
 
 from __future__ import annotations
 
+import ast
 import re
 import sys
 from collections.abc import Iterator
@@ -28,6 +29,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from loiter.evidence.proof.algebra import flint
+from loiter.evidence.proof.sign_proofs import NotProved
 
 ROOT = Path(__file__).parents[2]
 C = ROOT / "src" / "loiter" / "native" / "still_air_loops.h"
@@ -48,13 +50,19 @@ REACH = Fraction(41422, 100000)
 ANY_GRAIN = 10_000
 
 
-class NotProved(Exception):
-    """A source that is not understood, or a bound that does not hold."""
-
-
 # The source -------------------------------------------------------------------------------------------------------
 
-TOKEN = re.compile(r"\s*(\d+\.?\d*(?:e[-+]?\d+)?|[A-Za-z_]\w*|<=|>=|[-+*/()<>?:,=])")
+CHOICE = re.compile(r"([^()?:,=]+)\?([^()?:,=]+):([^()?:,=]+)")
+SYMBOLS = {
+    ast.Add: "+",
+    ast.Sub: "-",
+    ast.Mult: "*",
+    ast.Div: "/",
+    ast.Lt: "<",
+    ast.Gt: ">",
+    ast.LtE: "<=",
+    ast.GtE: ">=",
+}
 # A number is its text, a name a word; anything else a tuple: an operator and its operands.
 Expression = Any
 
@@ -105,62 +113,31 @@ def function(text: str, name: str) -> Function:
 
 
 def parsed(text: str) -> Expression:
-    """An expression of C."""
-    tokens, end = [], 0
-    while end < len(text.rstrip()):
-        match = TOKEN.match(text, end)
-        if match is None:
-            raise NotProved(f"not understood: {text[end:]}")
-        tokens.append(match[1])
-        end = match.end()
-    value, rest = _choice(tokens)
-    if rest:
-        raise NotProved(f"not understood: {text}")
-    return value
+    """An expression of C, whose operations have the ranks of Python's; a choice is written as Python writes it."""
+    try:
+        tree = ast.parse(CHOICE.sub(r"(\2 if \1 else \3)", " ".join(text.split())), mode="eval")
+    except SyntaxError:
+        raise NotProved(f"not understood: {text}") from None
+    return operations(tree.body)
 
 
-def _choice(tokens: list[str]) -> tuple[Expression, list[str]]:
-    value, rest = _operation(tokens, [("<", ">", "<=", ">="), ("+", "-"), ("*", "/")])
-    if rest[:1] != ["?"]:
-        return value, rest
-    first, rest = _choice(rest[1:])
-    if rest[:1] != [":"]:
-        raise NotProved("a choice without an alternative")
-    second, rest = _choice(rest[1:])
-    return ("?", value, first, second), rest
-
-
-def _operation(tokens: list[str], levels: list[tuple[str, ...]]) -> tuple[Expression, list[str]]:
-    """Operations of the same rank are carried out from the left."""
-    if not levels:
-        return _atom(tokens)
-    value, rest = _operation(tokens, levels[1:])
-    while rest and rest[0] in levels[0]:
-        right, after = _operation(rest[1:], levels[1:])
-        value, rest = (rest[0], value, right), after
-    return value, rest
-
-
-def _atom(tokens: list[str]) -> tuple[Expression, list[str]]:
-    if not tokens:
-        raise NotProved("an operand is missing")
-    head, rest = tokens[0], tokens[1:]
-    if head == "-":
-        value, rest = _atom(rest)
-        return ("negative", value), rest
-    if head == "(":
-        value, rest = _choice(rest)
-        return value, _closed(rest)
-    if rest[:1] == ["("]:
-        value, rest = _choice(rest[1:])
-        return ("call", head, value), _closed(rest)
-    return head, rest
-
-
-def _closed(tokens: list[str]) -> list[str]:
-    if tokens[:1] != [")"]:
-        raise NotProved("a bracket is not closed")
-    return tokens[1:]
+def operations(node: ast.expr) -> Expression:
+    """The operations of an expression and their operands."""
+    match node:
+        case ast.Name(id=name):
+            return name
+        case ast.Constant(value=float(value)):
+            return repr(value)
+        case ast.UnaryOp(op=ast.USub(), operand=value):
+            return "negative", operations(value)
+        case ast.BinOp(left=a, op=operator, right=b) | ast.Compare(left=a, ops=[operator], comparators=[b]):
+            if type(operator) in SYMBOLS:
+                return SYMBOLS[type(operator)], operations(a), operations(b)
+        case ast.IfExp(test=condition, body=a, orelse=b):
+            return "?", operations(condition), operations(a), operations(b)
+        case ast.Call(func=ast.Name(id=name), args=[value], keywords=[]):
+            return "call", name, operations(value)
+    raise NotProved(f"not understood: {ast.unparse(node)}")
 
 
 def evaluate(source: Source, node: Expression, scope: dict[str, Any], arithmetic: Any) -> Any:
@@ -376,11 +353,25 @@ def up(number: Fraction) -> float:
     return nextafter(float(number), inf)
 
 
-class Bounds:
-    """Numbers with bounds on their errors, on a box."""
+class OfCase:
+    """Arithmetics in which a case knows the outcomes of comparisons."""
 
-    def __init__(self, case: Case, box: Box) -> None:
-        self.case, self.box = case, box
+    def __init__(self, case: Case) -> None:
+        self.case = case
+
+    def compare(self, node: Expression, source: Source, scope: dict[str, Any]) -> Expression:
+        """The comparison itself."""
+        return node
+
+    def choose(self, source: Source, operands: list[Expression], scope: dict[str, Any]) -> Any:
+        """The number for the outcome of the case."""
+        condition, first, second = operands
+        outcome = self.case.holds(evaluate(source, condition, scope, self))
+        return evaluate(source, first if outcome else second, scope, self)
+
+
+class Bounds(OfCase):
+    """Numbers with bounds on their errors, on a box."""
 
     def number(self, text: str) -> Number:
         """A constant, which is exact."""
@@ -394,37 +385,18 @@ class Bounds:
         return value if value.low >= 0.0 else -value
 
     def compare(self, node: Expression, source: Source, scope: dict[str, Any]) -> Expression:
-        """The comparison itself: the case knows its outcome."""
+        """The comparison itself, of a denominator only if it cannot vanish."""
         if node == (">", "below", "0.0") and not scope["below"].low > 0.0:
             raise NotProved("a denominator may vanish")
         return node
 
-    def choose(self, source: Source, operands: list[Expression], scope: dict[str, Any]) -> Any:
-        """The number for the outcome of the case."""
-        condition, first, second = operands
-        outcome = self.case.holds(evaluate(source, condition, scope, self))
-        return evaluate(source, first if outcome else second, scope, self)
 
-
-class Polynomials:
+class Polynomials(OfCase):
     """Polynomials in q with rational coefficients: what the source means from q on, without rounding."""
-
-    def __init__(self, case: Case) -> None:
-        self.case = case
 
     def number(self, text: str) -> Any:
         """A constant."""
         return flint().fmpq_poly([flint().fmpq(*float(text).as_integer_ratio())])
-
-    def compare(self, node: Expression, source: Source, scope: dict[str, Any]) -> Expression:
-        """The comparison itself: the case knows its outcome."""
-        return node
-
-    def choose(self, source: Source, operands: list[Expression], scope: dict[str, Any]) -> Any:
-        """The polynomial for the outcome of the case."""
-        condition, first, second = operands
-        outcome = self.case.holds(evaluate(source, condition, scope, self))
-        return evaluate(source, first if outcome else second, scope, self)
 
 
 def split_at_q(source: Source) -> tuple[list[tuple[str, Expression]], Function]:
@@ -501,9 +473,9 @@ def approximation(coefficients: tuple[Fraction, ...]) -> float:
 
 def error_on(source: Source, case: Case, box: Box, known: Meaning) -> tuple[float, float]:
     """Bounds on a box: of the error of the angle in units of 2^-53, and of the angle from below."""
-    arithmetic = Bounds(case, box)
+    arithmetic = Bounds(case)
     forms = {"small": (1, 0), "large": (0, 1)}
-    magnitudes = {name: Number(*outward(box.linear(form)), 0.0, -1074, form, box) for name, form in forms.items()}
+    magnitudes = {name: Number(*map(float, box.linear(form)), 0.0, -1074, form, box) for name, form in forms.items()}
     names = ("large", "small") if case.relation > 0 else ("small", "large")
     x, y = (magnitudes[name] for name in names)
     scope: dict[str, Any] = {"x": -x if case.x_negative else x, "y": -y if case.y_negative else y}
@@ -523,11 +495,6 @@ def error_on(source: Source, case: Case, box: Box, known: Meaning) -> tuple[floa
     slope = 1.0 / (1.0 + nearest * nearest) * WIDEN
     error = widened(computed.error + known.constant + known.approximation * q.largest + q.error * slope)
     return error, angle_from_below(case, box)
-
-
-def outward(ends: tuple[Fraction, Fraction]) -> tuple[float, float]:
-    """Doubles of a range of doubles: the inputs are doubles between its ends."""
-    return float(ends[0]), float(ends[1])
 
 
 def angle_from_below(case: Case, box: Box) -> float:

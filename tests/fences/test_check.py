@@ -8,7 +8,7 @@ from fences.flying import UAV, held, path
 from loiter import Orbit, Pose, Wind, plan
 from loiter.errors import InvalidArgument
 from loiter.fences import CircleZone, Fence, PolygonZone, default_margin_m
-from loiter.fences.fence_check import LEAST_MARGIN_M
+from loiter.fences.fence import LEAST_MARGIN_M
 
 EAST = Pose(0.0, 0.0, 90.0)
 # To rounding; a search for what touches or is entered is exact to a micrometre.

@@ -11,7 +11,7 @@ import pytest
 from fences.scenes import scene
 from fences.study import compare
 from loiter.errors import LoiterError
-from loiter.fences import distances, fence, fence_check, model, pieces, search
+from loiter.fences import distances, fence, model, pieces, search
 
 SCENES, TRIED = 100, 90
 
@@ -42,8 +42,8 @@ MUTANTS = {
     "the bound of a trochoid is too tight": (search, "Chords.of", "/ 8.0", "/ 80.0"),
     "the wind is forgotten": (pieces, "Pieces.position", "self.wx * time_s", "0.0"),
     "the margin has the wrong sign": (
-        fence_check,
-        "check_zones",
+        fence,
+        "Fence.check",
         "near.distance <= margin_m + TOUCH_M",
         "near.distance <= -margin_m + TOUCH_M",
     ),
@@ -61,7 +61,7 @@ MUTANTS = {
     ),
     "the depth ends at once": (
         search,
-        "Signed._polygon_bounds",
+        "_from_polygon",
         "found.from_b).min(axis=1)",
         "found.from_b).min(axis=1) * 0.0",
     ),
@@ -74,7 +74,7 @@ MUTANTS = {
         "0.0 * across",
     ),
     "the deepest place for the entry": (
-        fence_check,
+        fence,
         "_breach",
         "first_entry(path.pieces, zone)",
         "least_distance(path.pieces, zone)",
@@ -96,7 +96,7 @@ def replace(monkeypatch, module, name, old, new):
     exec("from __future__ import annotations\n" + source.replace(old, new), scope)
     changed, before = scope[last], getattr(owner, last)
     monkeypatch.setattr(owner, last, changed)
-    for other in (fence, fence_check, distances, model, pieces, search):
+    for other in (fence, distances, model, pieces, search):
         if getattr(other, last, None) is before:
             monkeypatch.setattr(other, last, scope[last])
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from math import cos, inf, sin, tau
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy import bool_, float64
@@ -50,22 +50,6 @@ class Pose2(NamedTuple):
     x: float
     y: float
     heading: float
-
-
-class Air(Protocol):
-    """What a search needs to know of paths."""
-
-    def headings(self, contacts: Contacts) -> NDArray[float64]:
-        """The headings with which contacts are passed."""
-
-    def least_lengths(self, contacts: Contacts, headings: NDArray[float64]) -> NDArray[float64]:
-        """Lower bounds on the lengths from contacts to the circle: without a fence, zero on it."""
-
-    def words(self, start: Pose2, at: int | None, contacts: Contacts, headings: NDArray[float64]) -> Words:
-        """Paths from a pose, which is the contact `at` if that is given, to contacts."""
-
-    def are_clear(self, start: Pose2, words: Words) -> NDArray[bool_]:
-        """Whether paths from a pose stay clear of the fence."""
 
 
 class StillAir:
@@ -126,10 +110,7 @@ class StillAir:
         for k in range(3):
             u, length, radius = words.control[:, k], words.length[:, k], words.radius[:, k]
             c, s, angle = np.cos(heading), np.sin(heading), length / radius
-            half = 0.5 * u * angle
-            chord = np.where(u == 0.0, length, 2.0 * radius * np.sin(0.5 * angle))
-            next_x = x + chord * np.cos(heading + half)
-            next_y = y + chord * np.sin(heading + half)
+            next_x, next_y = _flown(x, y, heading, u, length, radius, 0.0, 0.0)
             bent = (clear & (u != 0.0) & (length > 0.0)).nonzero()[0]
             if bent.size:
                 nx, ny = u * s, -u * c
@@ -256,7 +237,11 @@ class SteadyWind:
         return clear
 
 
-def _flown(x: Any, y: Any, heading: Any, u: Any, length: Any, r: float, wx: float, wy: float) -> tuple[Any, Any]:
+# What a search needs to know of paths.
+Air: TypeAlias = StillAir | SteadyWind
+
+
+def _flown(x: Any, y: Any, heading: Any, u: Any, length: Any, r: Any, wx: float, wy: float) -> tuple[Any, Any]:
     """Places over the ground after a length through the air that moves with the wind (wx, wy) over the airspeed."""
     angle = length / r
     half, chord = heading + 0.5 * u * angle, np.where(u == 0.0, length, 2.0 * r * np.sin(0.5 * angle))

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from math import atan2, inf
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Sequence
+from math import atan2, inf, nan
+from typing import NamedTuple
 
-from loiter.errors import instance, not_negative
+from loiter.errors import InvalidArgument, instance
 from loiter.fences.airs import STILL_AIR_GAP_M, WIND_GAP_M, Air, Pose2, SteadyWind, StillAir
 from loiter.fences.chains import NO_PIECE_M, Chain, ChainSearch, Piece
 from loiter.fences.contacts import (
@@ -20,10 +21,8 @@ from loiter.fences.contacts import (
     rows_on_tangents,
     rows_without_straight,
 )
-from loiter.fences.entries import ClearEntry, first_clear
 from loiter.fences.entry_bound import least_length
-from loiter.fences.fence import Fence
-from loiter.fences.fence_check import default_margin_m, zones_on_circle
+from loiter.fences.fence import Fence, FenceCheck, checked_margin_m, zones_on_circle
 from loiter.fences.model import clear_points
 from loiter.fences.taut import least_length_m
 from loiter.planning.compass import heading_vector
@@ -32,9 +31,6 @@ from loiter.planning.model import CALM, CONTROLS, Aircraft, Orbit, Pose, Segment
 from loiter.planning.problem import Problem
 from loiter.planning.scaling import segment
 from loiter.planning.solve import extremals
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 # The first search has one contact for each step of `contacts`; where it finds nothing, or nothing that is less than
 # `LATE` turn radii longer than the fastest entry, a second one follows, in still air with half the steps.
@@ -61,6 +57,73 @@ LONGER_IN_WIND = 40.0
 
 LETTERS = {float(control): letter for letter, control in CONTROLS.items()}
 
+# Differences below this, seconds, are printed as none.
+SAME_TIME_S = 0.05
+
+
+class ClearEntry(NamedTuple):
+    """The answer of `first_clear` and of `clear_entry`.
+
+    `maneuver` is the fastest that stays clear, `check` its check, and `later_s` how much later than the fastest of all
+    it joins, seconds; None, None and nan where none is clear. `tried` counts the candidates that were checked, and
+    `blocking` names the zones that the others breach first. No clear entry takes less than `least_s` seconds; where
+    that is infinite there is none. `searched` says whether other paths than candidates were searched for.
+    """
+
+    maneuver: Maneuver | None
+    check: FenceCheck | None
+    later_s: float
+    tried: int
+    blocking: tuple[str, ...]
+    least_s: float = 0.0
+    searched: bool = False
+
+    @property
+    def is_fastest(self) -> bool:
+        """Whether the fastest entry is clear itself."""
+        return self.maneuver is not None and self.tried == 1 and not self.searched
+
+    @property
+    def sentence(self) -> str:
+        """The answer in a sentence."""
+        if self.maneuver is None:
+            return self._refusal
+        if self.is_fastest:
+            return "The fastest entry is clear."
+        later = f"joins {self.later_s:.1f} s later" if self.later_s >= SAME_TIME_S else "is as fast"
+        what = "The fastest clear entry found" if self.searched else "The first candidate that is clear"
+        return f"{what} {later}: {self.maneuver}"
+
+    @property
+    def _refusal(self) -> str:
+        zones = " and ".join(map(repr, self.blocking))
+        if self.least_s == inf:
+            return f"No entry is clear: {zones} blocks the circle itself, or every way to it."
+        if self.searched:
+            return f"No entry found: {zones} blocks here."
+        return f"No entry found: of the {self.tried} candidates none is clear, {zones} blocks here."
+
+
+def first_clear(fence: Fence, maneuvers: Sequence[Maneuver], margin_m: float | None = None) -> ClearEntry:
+    """The fastest of some maneuvers from one start, such as `loiter.candidates`, that stays clear of a fence.
+
+    The margin, metres, is that of `Fence.check`, and so are the errors; none to choose from is an `InvalidArgument`.
+    Other entries than these are not tried: that none of them is clear does not say that there is none. `least_s` is
+    the time of the fastest of them.
+    """
+    instance("fence", fence, Fence)
+    ordered = sorted(maneuvers, key=lambda maneuver: maneuver.duration_s)
+    if not ordered:
+        raise InvalidArgument("maneuvers", "has none to choose from")
+    blocking: dict[str, None] = {}
+    for tried, maneuver in enumerate(ordered, start=1):
+        found = fence.check(maneuver, margin_m)
+        if found.clear:
+            later_s = maneuver.duration_s - ordered[0].duration_s
+            return ClearEntry(maneuver, found, later_s, tried, tuple(blocking), ordered[0].duration_s)
+        blocking[found.breaches[0].zone.name] = None
+    return ClearEntry(None, None, nan, len(ordered), tuple(blocking), ordered[0].duration_s)
+
 
 def clear_entry(
     fence: Fence, pose: Pose, orbit: Orbit, aircraft: Aircraft, wind: Wind | None = None, margin_m: float | None = None
@@ -79,7 +142,8 @@ def clear_entry(
     ('RSLSL', 19.92, 0.15)
     """
     problem = Problem(pose, orbit, aircraft, CALM if wind is None else wind)
-    margin_m = _margin(fence, orbit, margin_m)
+    instance("fence", fence, Fence)
+    margin_m = checked_margin_m(orbit, margin_m)
     found = _fastest_clear(fence, problem, margin_m)
     if not found.searched or found.least_s == inf:
         return found
@@ -95,13 +159,8 @@ def fastest_clear(
 ) -> ClearEntry:
     """The answer of `clear_entry` with a lower bound that costs nothing: no clear entry is faster than any entry."""
     problem = Problem(pose, orbit, aircraft, CALM if wind is None else wind)
-    return _fastest_clear(fence, problem, _margin(fence, orbit, margin_m))
-
-
-def _margin(fence: Fence, orbit: Orbit, margin_m: float | None) -> float:
-    """The margin that is kept, metres; raises the errors of `Fence.check` for a fence or a margin that is none."""
     instance("fence", fence, Fence)
-    return default_margin_m(orbit) if margin_m is None else not_negative("margin_m", margin_m, "metres")
+    return _fastest_clear(fence, problem, checked_margin_m(orbit, margin_m))
 
 
 def _air(fence: Fence, problem: Problem, margin_m: float, curves: list[Curve]) -> Air:

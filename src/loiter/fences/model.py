@@ -68,6 +68,11 @@ class PolygonZone:
             raise InvalidArgument(where, problem)
 
     @cached_property
+    def edges(self) -> Edges:
+        """The edges as arrays."""
+        return edges_of([self])
+
+    @cached_property
     def _polygon(self) -> Any:
         import shapely
 
@@ -153,16 +158,19 @@ def polygon_sign(zone: PolygonZone, east_m: Any, north_m: Any) -> Any:
     return np.where(inside == zone.inclusion, 1.0, -1.0)
 
 
+def signed_distance(zone: Zone, east_m: Any, north_m: Any) -> Any:
+    """The distances of points (n,) from a zone, metres: positive on the allowed side."""
+    if isinstance(zone, CircleZone):
+        outside = np.hypot(east_m - zone.east_m, north_m - zone.north_m) - zone.radius_m
+        return -outside if zone.inclusion else outside
+    return to_edge(east_m[:, None], north_m[:, None], zone.edges).min(axis=1) * polygon_sign(zone, east_m, north_m)
+
+
 def clear_points(fence: Zones, east_m: Any, north_m: Any, margin_m: Any) -> Any:
     """Which of many points (n,) are on the allowed side of every zone of a fence, farther from it than their margin."""
     clear = np.ones(east_m.size, bool)
     for zone in fence.zones:
-        if isinstance(zone, CircleZone):
-            outside = np.hypot(east_m - zone.east_m, north_m - zone.north_m) - zone.radius_m
-            clear &= (-outside if zone.inclusion else outside) > margin_m
-        else:
-            distance = to_edge(east_m[:, None], north_m[:, None], edges_of([zone])).min(axis=1)
-            clear &= distance * polygon_sign(zone, east_m, north_m) > margin_m
+        clear &= signed_distance(zone, east_m, north_m) > margin_m
     return clear
 
 

@@ -33,7 +33,7 @@ from loiter.fences.distances import (
     first_within,
     to_edge,
 )
-from loiter.fences.model import Circles, CircleZone, PolygonZone, Zone, Zones, edges_of, polygon_sign
+from loiter.fences.model import Circles, CircleZone, PolygonZone, Zone, Zones, polygon_sign, signed_distance
 from loiter.fences.pieces import Pieces
 
 # What is closer than this, metres, touches. It is far above the rounding of coordinates up to 100 km, 1e-10 m, and far
@@ -97,8 +97,8 @@ class Chords(NamedTuple):
         return Chords(*(column[:, None] for column in self))
 
 
-# The bounds of parts; the indices are those of the edges or circles to which each part belongs.
-BoundParts: TypeAlias = Callable[[Chords, Parts, Any], Bounds]
+# The bounds of parts from edges or circles; the indices are those of the edge or circle to which each part belongs.
+BoundParts: TypeAlias = Callable[[Any, Chords, Parts, Any], Bounds]
 
 
 class Closest(NamedTuple):
@@ -140,13 +140,13 @@ def approach(fence: Zones, pieces: Pieces, margin_m: float) -> tuple[Closest, Cl
         if bent.size:
             _note_arcs_to_edges(polygons, pieces, bent, fence.edges)
         parts, j = _near_edges(polygons, pieces, fence.edges, margin_m)
-        _search(polygons, pieces, parts, j, _edge_bounds(fence.edges), fence.edges.zone, margin_m, unsigned=True)
+        _search(polygons, pieces, parts, j, _edge_bounds, fence.edges, fence.edges.zone, margin_m, unsigned=True)
     if fence.circle_zones:
         if bent.size:
             _note_arcs_to_circles(circles, pieces, bent, fence.circles)
         zones = np.arange(len(fence.circle_zones))
         parts, j = _pairs(first_parts(pieces, (~pieces.bent).nonzero()[0]), zones.size)
-        _search(circles, pieces, parts, j, _circle_bounds(fence.circles), zones, margin_m, unsigned=False)
+        _search(circles, pieces, parts, j, _circle_bounds, fence.circles, zones, margin_m, unsigned=False)
     return polygons, circles
 
 
@@ -168,31 +168,23 @@ def _note(closest: Closest, distance: Any, share: Any, pieces: Pieces, bent: Any
     closest.note(own.ravel(), distance.ravel(), piece.ravel(), (share * pieces.duration_s[piece]).ravel())
 
 
-def _edge_bounds(edges: Edges) -> BoundParts:
+def _edge_bounds(edges: Edges, chords: Chords, parts: Parts, j: Any) -> Bounds:
     """Bounds of the unsigned distance from edges."""
-
-    def bounds(chords: Chords, parts: Parts, j: Any) -> Bounds:
-        found = chord_to_edge(chords.ax, chords.ay, chords.bx, chords.by, edges.take(j)).nearest
-        return _around(found, chords, parts)
-
-    return bounds
+    found = chord_to_edge(chords.ax, chords.ay, chords.bx, chords.by, edges.take(j)).nearest
+    return _around(found, chords, parts)
 
 
-def _circle_bounds(circles: Circles) -> BoundParts:
+def _circle_bounds(circles: Circles, chords: Chords, parts: Parts, j: Any) -> Bounds:
     """Bounds of the signed distance from circles: positive on the allowed side."""
-
-    def bounds(chords: Chords, parts: Parts, j: Any) -> Bounds:
-        x, y = circles.x[j], circles.y[j]
-        near = chord_to_point(chords.ax, chords.ay, chords.bx, chords.by, x, y)
-        from_a, from_b = np.hypot(chords.ax - x, chords.ay - y), np.hypot(chords.bx - x, chords.by - y)
-        far = Nearest(-np.maximum(from_a, from_b), np.where(from_a > from_b, 0.0, 1.0))
-        outside = circles.sign[j] > 0.0
-        each = Nearest(np.where(outside, near.distance, far.distance), np.where(outside, near.share, far.share))
-        found = _around(each, chords, parts)
-        shift = circles.sign[j] * circles.radius[j]
-        return Bounds(found.lower - shift, found.upper - shift, found.at)
-
-    return bounds
+    x, y = circles.x[j], circles.y[j]
+    near = chord_to_point(chords.ax, chords.ay, chords.bx, chords.by, x, y)
+    from_a, from_b = np.hypot(chords.ax - x, chords.ay - y), np.hypot(chords.bx - x, chords.by - y)
+    far = Nearest(-np.maximum(from_a, from_b), np.where(from_a > from_b, 0.0, 1.0))
+    outside = circles.sign[j] > 0.0
+    each = Nearest(np.where(outside, near.distance, far.distance), np.where(outside, near.share, far.share))
+    found = _around(each, chords, parts)
+    shift = circles.sign[j] * circles.radius[j]
+    return Bounds(found.lower - shift, found.upper - shift, found.at)
 
 
 def _around(found: Nearest, chords: Chords, parts: Parts) -> Bounds:
@@ -241,16 +233,17 @@ def _search(
     parts: Parts,
     j: Any,
     bounds: BoundParts,
+    shapes: Edges | Circles,
     zone: Any,
     margin_m: float,
     *,
     unsigned: bool,
 ) -> None:
-    """Note the least distances of parts from their edges or circles `j`, each of which belongs to a zone."""
+    """Note the least distances of parts from their edges or circles `j` of `shapes`; each belongs to a zone."""
     for _ in range(MOST_LEVELS):
         if not parts.piece.size:
             return
-        found = bounds(Chords.of(pieces, parts), parts, j)
+        found = bounds(shapes, Chords.of(pieces, parts), parts, j)
         closest.note(zone[j], found.upper, parts.piece, found.at)
         keep = _undecided(closest, found.lower, zone[j], margin_m, unsigned=unsigned)
         parts, j = parts.take(keep).split(), np.repeat(j[keep], SPLIT)
@@ -268,49 +261,34 @@ def _undecided(closest: Closest, lower: Any, zone: Any, margin_m: float, *, unsi
     return ((lower < known - RESOLUTION_M) & ~touches & matters).nonzero()[0]
 
 
-class Signed:
-    """The signed distance of points and parts from one zone: positive on the side that is allowed."""
+def signed_bounds(zone: Zone, chords: Chords, parts: Parts) -> Bounds:
+    """Bounds of the signed distance of parts from a zone; `upper` is attained at one of their ends."""
+    bounds = _from_circle(zone, chords) if isinstance(zone, CircleZone) else _from_polygon(zone, chords)
+    lower, at_a, at_b = bounds
+    upper = np.minimum(at_a, at_b) - chords.widen
+    return Bounds(lower - chords.off - chords.widen, upper, np.where(at_b < at_a, parts.b, parts.a))
 
-    def __init__(self, zone: Zone) -> None:
-        self._zone, self._edges = zone, edges_of([zone] if isinstance(zone, PolygonZone) else [])
 
-    def bounds(self, chords: Chords, parts: Parts) -> Bounds:
-        """Bounds on parts; `upper` is attained at one of their ends."""
-        is_circle = isinstance(self._zone, CircleZone)
-        lower, at_a, at_b = self._circle_bounds(chords) if is_circle else self._polygon_bounds(chords)
-        upper = np.minimum(at_a, at_b) - chords.widen
-        return Bounds(lower - chords.off - chords.widen, upper, np.where(at_b < at_a, parts.b, parts.a))
+def _from_circle(zone: CircleZone, chords: Chords) -> tuple[Any, Any, Any]:
+    """The least signed distance of chords from a circle, and those of their ends."""
+    at_a, at_b = signed_distance(zone, chords.ax, chords.ay), signed_distance(zone, chords.bx, chords.by)
+    if zone.inclusion:
+        return np.minimum(at_a, at_b), at_a, at_b
+    near = chord_to_point(chords.ax, chords.ay, chords.bx, chords.by, zone.east_m, zone.north_m)
+    return near.distance - zone.radius_m, at_a, at_b
 
-    def _circle_bounds(self, chords: Chords) -> tuple[Any, Any, Any]:
-        """The least signed distance of chords, and those of their ends."""
-        zone = self._zone
-        assert isinstance(zone, CircleZone)
-        at_a, at_b = self.at(chords.ax, chords.ay), self.at(chords.bx, chords.by)
-        if zone.inclusion:
-            return np.minimum(at_a, at_b), at_a, at_b
-        near = chord_to_point(chords.ax, chords.ay, chords.bx, chords.by, zone.east_m, zone.north_m)
-        return near.distance - zone.radius_m, at_a, at_b
 
-    def _polygon_bounds(self, chords: Chords) -> tuple[Any, Any, Any]:
-        """No more than the least signed distance of chords, and those of their ends."""
-        zone, c = self._zone, chords.columns()
-        assert isinstance(zone, PolygonZone)
-        found = chord_to_edge(c.ax, c.ay, c.bx, c.by, self._edges)
-        sides = polygon_sign(zone, np.append(chords.ax, chords.bx), np.append(chords.ay, chords.by))
-        side_a, side_b = np.split(sides, 2)
-        near = found.nearest.distance.min(axis=1)
-        # On the wrong side the zone's boundary is no farther than any one edge is.
-        deepest = np.maximum(found.from_a, found.from_b).min(axis=1)
-        lower = np.where((side_a > 0.0) & (near > chords.off), near, -deepest)
-        return lower, side_a * found.from_a.min(axis=1), side_b * found.from_b.min(axis=1)
-
-    def at(self, x: Any, y: Any) -> Any:
-        """The signed distance of points."""
-        zone = self._zone
-        if isinstance(zone, CircleZone):
-            outside = np.hypot(x - zone.east_m, y - zone.north_m) - zone.radius_m
-            return -outside if zone.inclusion else outside
-        return to_edge(x[:, None], y[:, None], self._edges).min(axis=1) * polygon_sign(zone, x, y)
+def _from_polygon(zone: PolygonZone, chords: Chords) -> tuple[Any, Any, Any]:
+    """No more than the least signed distance of chords from a polygon, and those of their ends."""
+    c = chords.columns()
+    found = chord_to_edge(c.ax, c.ay, c.bx, c.by, zone.edges)
+    sides = polygon_sign(zone, np.append(chords.ax, chords.bx), np.append(chords.ay, chords.by))
+    side_a, side_b = np.split(sides, 2)
+    near = found.nearest.distance.min(axis=1)
+    # On the wrong side the zone's boundary is no farther than any one edge is.
+    deepest = np.maximum(found.from_a, found.from_b).min(axis=1)
+    lower = np.where((side_a > 0.0) & (near > chords.off), near, -deepest)
+    return lower, side_a * found.from_a.min(axis=1), side_b * found.from_b.min(axis=1)
 
 
 class PlaceInPath(NamedTuple):
@@ -323,10 +301,10 @@ class PlaceInPath(NamedTuple):
 
 def least_distance(pieces: Pieces, zone: Zone) -> PlaceInPath:
     """The least signed distance of a path from a zone, to `RESOLUTION_M`: how deep it goes, where it is negative."""
-    signed, parts = Signed(zone), first_parts(pieces, np.arange(pieces.x.size))
+    parts = first_parts(pieces, np.arange(pieces.x.size))
     best = PlaceInPath(np.inf, 0, 0.0)
     for _ in range(MOST_LEVELS):
-        found = signed.bounds(Chords.of(pieces, parts), parts)
+        found = signed_bounds(zone, Chords.of(pieces, parts), parts)
         i = int(found.upper.argmin())
         if found.upper[i] < best.distance:
             best = PlaceInPath(float(found.upper[i]), int(parts.piece[i]), float(found.at[i]))
@@ -352,19 +330,19 @@ def first_entry(pieces: Pieces, zone: Zone) -> PlaceInPath:
 
 def _first_touch(pieces: Pieces, simple: Any, zone: Zone) -> PlaceInPath:
     """Where the arcs and straight lines of a path first come within `TOUCH_M` of a zone's boundary."""
-    share, edges = np.full(pieces.x.size, np.inf), edges_of([zone] if isinstance(zone, PolygonZone) else [])
+    share = np.full(pieces.x.size, np.inf)
     bent, straight = ((simple & kind).nonzero()[0] for kind in (pieces.bent, pieces.u == 0.0))
     if bent.size:
         arcs = arcs_of(pieces.take(bent))
         if isinstance(zone, PolygonZone):
-            share[bent] = first_within(*arc_edge_points(arcs, edges), TOUCH_M).min(axis=-1)
+            share[bent] = first_within(*arc_edge_points(arcs, zone.edges), TOUCH_M).min(axis=-1)
         else:
             share[bent] = first_within(*arc_circle_points(arcs, *_disc(zone)), TOUCH_M).min(axis=-1)
     if straight.size:
         lines = pieces.take(straight)
         (ax, ay), (bx, by) = ((v[:, None] for v in lines.position(t)) for t in (0.0, lines.duration_s))
         if isinstance(zone, PolygonZone):
-            share[straight] = first_within(*chord_edge_points(ax, ay, bx, by, edges), TOUCH_M).min(axis=-1)
+            share[straight] = first_within(*chord_edge_points(ax, ay, bx, by, zone.edges), TOUCH_M).min(axis=-1)
         else:
             share[straight] = first_within(*chord_circle_points(ax, ay, bx, by, *_disc(zone)), TOUCH_M).min(axis=-1)
     touched = (share < np.inf).nonzero()[0]
@@ -381,11 +359,11 @@ def _disc(zone: CircleZone) -> tuple[float, float, float]:
 
 def _searched_entry(pieces: Pieces, searched: Any, zone: Zone, known: PlaceInPath, known_s: float) -> PlaceInPath:
     """The first entry of some pieces by bounds, or the known one if none comes before."""
-    signed, parts = Signed(zone), first_parts(pieces, searched)
+    parts = first_parts(pieces, searched)
     step_s = TOUCH_M / float((pieces.speed + np.hypot(pieces.wx, pieces.wy)).max())
     entry, entry_s = known, known_s
     for _ in range(MOST_LEVELS):
-        found = signed.bounds(Chords.of(pieces, parts), parts)
+        found = signed_bounds(zone, Chords.of(pieces, parts), parts)
         times = np.where(found.upper <= TOUCH_M, pieces.start_s[parts.piece] + found.at, np.inf)
         i = int(times.argmin())
         if times[i] < entry_s:

@@ -26,15 +26,6 @@ class Word(NamedTuple):
     length: tuple[float, ...]
 
 
-class LeftWord(NamedTuple):
-    """A word that begins with a left turn, to many poses: controls, and lengths (n,), nan where there is none."""
-
-    control: tuple[float, float, float]
-    first: NDArray[float64]
-    middle: NDArray[float64]
-    last: NDArray[float64]
-
-
 class Words(NamedTuple):
     """Paths of up to three pieces: the pose that each leads to, controls, lengths and radii, metres, each (n, 3)."""
 
@@ -70,29 +61,29 @@ def words_between(x: float, y: float, angle: float, to_x: Any, to_y: Any, to_ang
     along, across, turned = dx * c + dy * s, dy * c - dx * s, to_angle - angle
     found = []
     for u in (1.0, -1.0):
-        for word in _left_words(along, u * across, u * turned):
-            lengths = np.stack([word.first, word.middle, word.last], axis=-1)
+        for controls, pieces in _left_words(along, u * across, u * turned):
+            lengths = np.stack(pieces, axis=-1)
             exists = np.flatnonzero(np.isfinite(lengths).all(axis=1))
-            control = np.tile(np.array(word.control) * u, (exists.size, 1))
+            control = np.tile(np.array(controls) * u, (exists.size, 1))
             found.append(Words(exists, control, lengths[exists] * radius, np.full(control.shape, radius)))
     return Words.joined(found)
 
 
-def _left_words(x: Any, y: Any, turned: Any) -> Iterator[LeftWord]:
-    """LSL, LSR and LRL from the origin along the x axis."""
+def _left_words(x: Any, y: Any, turned: Any) -> Iterator[tuple[tuple[float, ...], list[Any]]]:
+    """LSL, LSR and LRL from the origin along the x axis: controls, and lengths of the pieces, nan for no path."""
     left_x, left_y = x - np.sin(turned), y + np.cos(turned) - 1.0
     right_x, right_y = x + np.sin(turned), y - np.cos(turned) - 1.0
     with np.errstate(invalid="ignore"):
         far = np.hypot(left_x, left_y)
         # Where both arcs are parts of one circle the straight line between them has no direction.
         ahead = np.where(far < WHOLE_TURN, 0.0, np.arctan2(left_y, left_x))
-        yield LeftWord((1.0, 0.0, 1.0), _arc(ahead), far, _arc(turned - ahead))
+        yield (1.0, 0.0, 1.0), [_arc(ahead), far, _arc(turned - ahead)]
         cross = np.sqrt(right_x**2 + right_y**2 - 4.0)
         course = np.arctan2(right_y, right_x) + np.arctan2(2.0, cross)
-        yield LeftWord((1.0, 0.0, -1.0), _arc(course), cross, _arc(course - turned))
+        yield (1.0, 0.0, -1.0), [_arc(course), cross, _arc(course - turned)]
         half = np.arccos(0.25 * far)
         first, last = _arc(ahead + half + 0.5 * pi), _arc(turned - ahead + half - 1.5 * pi)
-        yield LeftWord((1.0, -1.0, 1.0), first, pi + 2.0 * half, last)
+        yield (1.0, -1.0, 1.0), [first, pi + 2.0 * half, last]
 
 
 def _arc(angle: Any) -> Any:

@@ -70,6 +70,11 @@ def _start(problem: Problem, side: int) -> RelativeStart:
     if problem.has_closed_form:
         x, y, R, _, _ = problem.reduced()
         return RelativeStart(complex(x, y), 1.0 + 0.0j, 0.0j, R, side)
+    return start_in_wind(problem, side)
+
+
+def start_in_wind(problem: Problem, side: int) -> RelativeStart:
+    """The start relative to the circle in the axes of the plane, in still air too."""
     x, y, c, s, R, _, wx, wy, _ = problem.in_wind()
     return RelativeStart(complex(x, y), complex(c, s), complex(wx, wy), R, side)
 

@@ -24,9 +24,8 @@ from loiter.verify.accuracy import accuracy_of
 from loiter.verify.adjoints import trajectory_of
 from loiter.verify.conditions import IN_WIND, residuals
 from loiter.verify.paper_conditions import IN_STILL_AIR
-from loiter.verify.residual import Candidate, Residual
 from loiter.verify.rounding_bound import RoundingBound, rounding_bound
-from loiter.verify.trajectory import FlownPiece, Trajectory
+from loiter.verify.trajectory import Candidate, FlownPiece, Residual, Trajectory
 
 LETTERS = {u: letter for letter, u in CONTROLS.items()}
 

@@ -12,8 +12,7 @@ from typing import NamedTuple
 from loiter.planning.model import Turn
 from loiter.verify.accuracy import STEP, Accuracy
 from loiter.verify.gradient import GradientEquations, gradient_residuals
-from loiter.verify.residual import Candidate, Residual
-from loiter.verify.trajectory import FlownPiece, PieceState, Trajectory, inner
+from loiter.verify.trajectory import Candidate, FlownPiece, PieceState, Residual, Trajectory, inner
 
 
 class Violation(NamedTuple):

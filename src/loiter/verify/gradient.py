@@ -17,8 +17,7 @@ from typing import NamedTuple
 
 from loiter.verify.accuracy import Accuracy
 from loiter.verify.least_times import LeastTimes, least_times
-from loiter.verify.residual import Residual
-from loiter.verify.trajectory import Trajectory, inner
+from loiter.verify.trajectory import Residual, Trajectory, inner
 
 # The bound of a gradient of T must be below this share of its size.
 RESOLVED = 1e-3

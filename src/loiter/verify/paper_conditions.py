@@ -8,13 +8,14 @@ still air only are the switching points (19), the line through the centre, and t
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import partial
 from itertools import pairwise
 from math import atan2, hypot, pi, sqrt
 
 from loiter.kernel.angles import angle
 from loiter.kernel.still_air.extremals import onto_axis
-from loiter.planning.model import Turn
+from loiter.planning.model import CALM, Turn
 from loiter.verify import conditions
 from loiter.verify.accuracy import Accuracy
 from loiter.verify.conditions import Condition, EquationOfMotion, Formulation, Violation
@@ -29,7 +30,8 @@ def target(trajectory: Trajectory, accuracy: Accuracy) -> Violation:
 
 def join(trajectory: Trajectory, accuracy: Accuracy) -> Violation:
     """The distance of the maneuver's own last pose, reduced, from the target."""
-    last, start = trajectory.reduced_join, trajectory.start
+    maneuver, start = trajectory.maneuver, trajectory.start
+    last = replace(trajectory.problem, pose=maneuver.join, orbit=maneuver.orbit_at_join, wind=CALM).reduced()
     return Violation(hypot(last.x, last.y - start.side * start.R), accuracy.join)
 
 

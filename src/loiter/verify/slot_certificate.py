@@ -25,14 +25,15 @@ from loiter.planning.sides import directions, sign_of
 from loiter.planning.slot import Slot
 from loiter.planning.solve import arrivals
 from loiter.verify.accuracy import accuracy_in_wind
-from loiter.verify.adjoints import vanishing_at
+from loiter.verify.adjoints import start_in_wind, vanishing_at
 from loiter.verify.certificate import BASIS_VIOLATED, Certificate, certificate_values, switches_of
 from loiter.verify.conditions import IN_WIND, join, motion_residuals, turn
-from loiter.verify.residual import Candidate, Residual
 from loiter.verify.slot_check import HeldCircle, LowerBound, SlotState, no_arrival_before, resolution
 from loiter.verify.trajectory import (
+    Candidate,
     InitialAdjoint,
     RelativeStart,
+    Residual,
     Trajectory,
     durations_of,
     flown_pieces,
@@ -198,7 +199,7 @@ def certify_arrival(maneuver: Maneuver, *, time_s: float, bearing_deg: float) ->
     time_s, bearing_deg = positive("time_s", time_s, "seconds"), number("bearing_deg", bearing_deg, "degrees")
     problem, held = problem_of(maneuver), held_turn(maneuver)
     unit_s = problem.time_unit_s
-    start, place = _start(problem, sign_of(held)), placed_arrival(problem, held, time_s, bearing_deg)
+    start, place = start_in_wind(problem, sign_of(held)), placed_arrival(problem, held, time_s, bearing_deg)
     begin, end = max(place.time - BEFORE, 0.0), place.time + AFTER
     spans = possible_times(place.arrival, begin, end)
     return ArrivalCertificate(
@@ -220,15 +221,9 @@ def certify_arrival(maneuver: Maneuver, *, time_s: float, bearing_deg: float) ->
 # Slots
 
 
-def _start(problem: Problem, side: int) -> RelativeStart:
-    """The start relative to the circle, in still air too in the axes of the plane."""
-    x, y, c, s, R, _, wx, wy, _ = problem.in_wind()
-    return RelativeStart(complex(x, y), complex(c, s), complex(wx, wy), R, side)
-
-
 def _trajectory(maneuver: Maneuver, problem: Problem) -> Trajectory:
     """The maneuver flown from its start, with the adjoint that violates the conditions least."""
-    start = _start(problem, sign_of(held_turn(maneuver)))
+    start = start_in_wind(problem, sign_of(held_turn(maneuver)))
     controls, durations = [CONTROLS[letter] for letter in word_of(maneuver).letters], durations_of(maneuver)
     if not controls:
         return Trajectory(maneuver, problem, start, 1.0, ())

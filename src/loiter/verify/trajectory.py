@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from cmath import exp
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 from math import atan2, pi, sin
@@ -22,8 +22,8 @@ from loiter.errors import InvalidArgument, as_float
 from loiter.kernel.rounding import REACH
 from loiter.kernel.words import Word
 from loiter.planning.maneuver import Maneuver
-from loiter.planning.model import CALM, Turn
-from loiter.planning.problem import Problem, ReducedProblem
+from loiter.planning.model import Turn
+from loiter.planning.problem import Problem
 
 # Instants checked in each piece. Once the extremes of psi1 and phi are added, both are monotone between instants.
 SAMPLES = 9
@@ -35,6 +35,45 @@ WIDER = 1e-9
 def inner(a: complex, b: complex) -> float:
     """The inner product of two vectors."""
     return (a.conjugate() * b).real
+
+
+@dataclass(frozen=True)
+class Residual:
+    """One condition: name, equation, violation, and the largest violation of a correct maneuver.
+
+    `value` and `bound` are None where the condition could not be checked; `note` then says why.
+    """
+
+    name: str
+    equation: str
+    value: float | None
+    bound: float | None
+    note: str = ""
+
+    @property
+    def skipped(self) -> bool:
+        """Whether the condition could not be checked."""
+        return self.value is None
+
+    @property
+    def failed(self) -> bool:
+        """Whether the condition is violated beyond its bound."""
+        return self.value is not None and self.bound is not None and not self.value <= self.bound
+
+    @property
+    def verdict(self) -> str:
+        """The verdict in a word: "holds", "FAILED" or "skipped"."""
+        return "skipped" if self.skipped else "FAILED" if self.failed else "holds"
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """Another extremal for the same start; `later_s` (seconds) is negative where it joins sooner."""
+
+    word: str
+    turn: Turn
+    duration_s: float
+    later_s: float
 
 
 class PieceState(NamedTuple):
@@ -192,12 +231,6 @@ class Trajectory:
     def duration(self) -> float:
         """T, in turn radii over airspeed."""
         return sum(piece.t for piece in self.pieces)
-
-    @cached_property
-    def reduced_join(self) -> ReducedProblem:
-        """The maneuver's own last pose as a start in still air: its reduced state."""
-        maneuver = self.maneuver
-        return replace(self.problem, pose=maneuver.join, orbit=maneuver.orbit_at_join, wind=CALM).reduced()
 
     @cached_property
     def violations(self) -> MaximumPrinciple:

@@ -135,9 +135,9 @@ def rlr_slower() -> Certainty:
     touching = abs(margin(0.5 * arb.pi(), arb(1)))
     require(bool(touching < SAME_TIME), f"the two times differ by {touching} at R = 2, where they are equal")
     outside = balls.positive("RLR is slower than RL", margin, boxes)
-    corner = balls.positive(
-        "RLR is slower next to R = 2", corner_margin, [(Interval(0.0, CORNER), Interval(1.0 - CORNER, 1.0 + CORNER))]
-    )
+    # A lower bound of E/e at alpha = pi/2 - e: 3 - tan(e)/(e q), where tan(e)/e is at most 1 + e^2/2.
+    around = [(Interval(0.0, CORNER), Interval(1.0 - CORNER, 1.0 + CORNER))]
+    corner = balls.positive("RLR is slower next to R = 2", lambda e, q: 3 - (1 + e * e / 2) / q, around)
     return Certainty(outside.cases + corner.cases, max(outside.depth, corner.depth))
 
 
@@ -164,11 +164,6 @@ def rlr_margin() -> Callable[[Any, Any], Any]:
     return margin
 
 
-def corner_margin(e: Any, q: Any) -> Any:
-    """A lower bound of E/e at alpha = pi/2 - e: 3 - tan(e)/(e q), where tan(e)/e is at most 1 + e^2/2."""
-    return 3 - (1 + e * e / 2) / q
-
-
 # A little more than the root of 8.
 LONGEST_X = 2.8285
 
@@ -191,10 +186,7 @@ def rsr_faster() -> Certainty:
     total = (cross * down[1] + dot * down[0], dot * down[1] - cross * down[0])
     require(is_rotation(total, t.field.constant(1.0), cut), "the first arc is not atan c - a")
     require(LONGEST_X * LONGEST_X >= 8.0, "X may be longer")
-    bound = balls.positive("X - atan X < pi", spare_time, [(Interval(0.0, LONGEST_X),)])
+    pi, boxes = flint().arb.pi(), [(Interval(0.0, LONGEST_X),)]
+    # By how much pi + X - atan X is less than 2 pi.
+    bound = balls.positive("X - atan X < pi", lambda x: pi - (x - x.atan()), boxes)
     return Certainty(1 + bound.cases, bound.depth)
-
-
-def spare_time(x: Any) -> Any:
-    """By how much pi + X - atan X is less than 2 pi."""
-    return flint().arb.pi() - (x - x.atan())

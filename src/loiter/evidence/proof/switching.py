@@ -7,9 +7,8 @@ from __future__ import annotations
 
 from itertools import product
 from math import isnan
-from typing import NamedTuple
 
-from loiter.evidence.proof.algebra import Expression, Field
+from loiter.evidence.proof.algebra import Expression
 from loiter.evidence.proof.arrivals import CASES, check_crossing, check_word, restricted
 from loiter.evidence.proof.balls import Certainty
 from loiter.evidence.proof.exact_paths import Point, SnappedArcs, exact, flown, is_rotation, squared, start_at
@@ -27,54 +26,38 @@ from loiter.kernel.still_air import extremals as kernel
 from loiter.kernel.still_air import switching_curves
 
 
-class Switches(NamedTuple):
-    """The family of CCC extremals: the two switching points, with s, c, w and the radius, in one field."""
-
-    field: Field
-    s: Expression
-    c: Expression
-    w: Expression
-    R: Expression
-    A: Point
-    B: Point
-
-
-def family(middle: int) -> Switches:
-    """LRL (`middle` -1) or RLR (+1): A = (3 s - w) (c, -middle s), B = (s - w) (c, middle s), for w > 0, 0 < s < 1."""
-    s, w, field = variables("s w")
-    for bound in (s, 1.0 - s, w):
-        field.assume(bound, POSITIVE)
-    c = field.sqrt(1.0 - s * s)
-    # (R + 1)^2 in LRL, (R - 1)^2 in RLR.
-    field.derive(1.0 + w * w - s * s, w * w, 1.0 - s * s)
-    R = field.sqrt(1.0 + w * w - s * s) + middle
-    a, b = 3.0 * s - w, s - w
-    return Switches(field, s, c, w, R, Point(a * c, -middle * a * s), Point(b * c, middle * b * s))
-
-
-def along_curve(expression: Expression, f: Switches) -> Expression:
+def along_curve(expression: Expression, s: Expression, w: Expression) -> Expression:
     """The derivative by w along the switching curve, where R is constant: ds/dw = w/s."""
-    return expression.derivative("w") + f.w / f.s * expression.derivative("s")
+    return expression.derivative("w") + w / s * expression.derivative("s")
 
 
 def switching_points() -> Certainty:
-    """Lemma 4: B lies on the last circle, the middle arc lasts 2 pi - 2 alpha, and both radii change as it says."""
+    """Lemma 4: B lies on the last circle, the middle arc lasts 2 pi - 2 alpha, and both radii change as it says.
+
+    LRL (`middle` -1) or RLR (+1): A = (3 s - w) (c, -middle s), B = (s - w) (c, middle s), for w > 0, 0 < s < 1.
+    """
     for middle in (-1, 1):
-        f = family(middle)
-        s, c, w, R = f.s, f.c, f.w, f.R
-        last = R - middle
-        zero("B is not on the last circle", squared(f.B, middle) - last * last)
-        zero("A is not on the middle circle", squared(f.A, -middle) - squared(f.B, -middle))
-        f.field.derive(squared(f.A, -middle), c * c, (w - 2.0 * s) * (w - 2.0 * s))
-        turned = rotation_about(f.A, f.B, -middle)
+        s, w, field = variables("s w")
+        for bound in (s, 1.0 - s, w):
+            field.assume(bound, POSITIVE)
+        c = field.sqrt(1.0 - s * s)
+        # The radius of the last circle: R + 1 in LRL, R - 1 in RLR.
+        field.derive(1.0 + w * w - s * s, w * w, 1.0 - s * s)
+        last = field.sqrt(1.0 + w * w - s * s)
+        a, b = 3.0 * s - w, s - w
+        A, B = Point(a * c, -middle * a * s), Point(b * c, middle * b * s)
+        zero("B is not on the last circle", squared(B, middle) - last * last)
+        zero("A is not on the middle circle", squared(A, -middle) - squared(B, -middle))
+        field.derive(squared(A, -middle), c * c, (w - 2.0 * s) * (w - 2.0 * s))
+        turned = rotation_about(A, B, -middle)
         require(is_rotation((-middle * turned[0], turned[1]), c * c - s * s, -2.0 * s * c), "the middle arc differs")
-        middle2, first2 = squared(f.A, -middle), squared(f.A, middle)
+        middle2, first2 = squared(A, -middle), squared(A, middle)
         # In LRL the middle circle is that of R, so middle2 is rm^2.
         zero("middle radius", middle2 - (4.0 * s * s - 4.0 * s * w + last * last))
         zero("first radius", first2 - (16.0 * s * s - 8.0 * s * w + last * last))
-        zero("R along the curve", along_curve(last * last, f))
-        zero("middle slope", s * along_curve(middle2, f) + 4.0 * (w - s) * (w - s))
-        zero("first slope", s * along_curve(first2, f) + 8.0 * (w * w - 4.0 * s * w + s * s))
+        zero("R along the curve", along_curve(last * last, s, w))
+        zero("middle slope", s * along_curve(middle2, s, w) + 4.0 * (w - s) * (w - s))
+        zero("first slope", s * along_curve(first2, s, w) + 8.0 * (w * w - 4.0 * s * w + s * s))
     return Certainty(2, 0)
 
 

@@ -6,8 +6,7 @@ from math import inf
 from typing import Any
 
 from loiter.errors import InvalidArgument
-from loiter.fences.clear_entry import fastest_clear
-from loiter.fences.entries import ClearEntry
+from loiter.fences.clear_entry import ClearEntry, fastest_clear
 from loiter.fences.fence import Fence, check
 from loiter.geo.placed import PlacedProblem
 from loiter.io.document import maneuver_values

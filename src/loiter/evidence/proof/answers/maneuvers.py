@@ -357,12 +357,14 @@ def solved_states() -> int:
     lengths, radii, spreads = beside(-reach, 0.0, reach), beside(0.0, least, 1.0, reach), beside(0.0, reach)
     for R in radii:
         rounded, given = float(rounding.rounded_radius(R)), float(R)
-        require(is_number(rounded, 1.0 if least <= given < 1.0 else given), "`rounded_radius` is another radius")
+        expected = 1.0 if least <= given < 1.0 else given
+        same = rounded == expected or (math.isnan(rounded) and math.isnan(given))
+        require(same, "`rounded_radius` is another radius")
     for x, y, R, tolerance in product(lengths, lengths, radii, spreads):
-        expected = expected_status(float(x), float(y), float(R), float(tolerance), least, reach)
-        require(synthesis.status_of(x, y, R, tolerance) == expected, f"the status of {(x, y, R, tolerance)}")
+        status = expected_status(float(x), float(y), float(R), float(tolerance), least, reach)
+        require(synthesis.status_of(x, y, R, tolerance) == status, f"the status of {(x, y, R, tolerance)}")
         solvable = synthesis.is_solvable(x, y, R, tolerance)
-        require(solvable == (expected == Status.OK), f"`is_solvable` at {(x, y, R, tolerance)}")
+        require(solvable == (status == Status.OK), f"`is_solvable` at {(x, y, R, tolerance)}")
         cases += 1
     for controls, side in product(every_word(), (-1, 1)):
         R, field = variables("R")
@@ -372,11 +374,6 @@ def solved_states() -> int:
         zero("`first_control`", field.of(law) - (controls[0] if controls else field.constant(-side) / R))
         cases += 1
     return cases
-
-
-def is_number(a: float, b: float) -> bool:
-    """Whether two numbers are equal, or both are none."""
-    return a == b or (math.isnan(a) and math.isnan(b))
 
 
 def expected_status(x: float, y: float, R: float, tolerance: float, least: float, reach: float) -> Status:

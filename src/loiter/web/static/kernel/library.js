@@ -163,6 +163,10 @@ if (truth((problem = shapes.invalidity(self._polygon)))) {
 throw errors.InvalidArgument(where, problem);
 }
 }
+get edges() { return cached(this, "edges", () => {
+const self = this;
+return edges_of([self]);
+}); }
 get _polygon() { return cached(this, "_polygon", () => {
 let polygon;
 const self = this;
@@ -180,8 +184,24 @@ this.zones = zones;
 this.__post_init__();
 }
 check(maneuver, margin_m = null) {
+let approaches, breaches, closest, closest_one, flown, least, nearest, ordered, path, places, zone, zones;
 const self = this;
-return check_zones(self, maneuver, margin_m);
+[flown, maneuver] = iter([maneuver, (truth(isinstance(maneuver, LegPlan)) ? maneuver.entry : maneuver)]);
+arrays.unchecked("maneuver", maneuver, Maneuver);
+margin_m = ((margin_m == null) ? default_margin_m(maneuver.orbit) : not_negative("margin_m", margin_m, "metres"));
+path = flown_path(flown);
+_check_start(self, maneuver.start);
+approaches = [];
+for ([zones, closest] of rows(zip(_by_kind(self), approach(self, path.pieces, margin_m)))) {
+places = zip(tolist_(closest.distance), tolist_(closest.piece), tolist_(closest.time_s));
+approaches = add(approaches, list(iter(zip(zones, places))).map((one) => iter(one)).map(([zone, place]) => [zone, PlaceInPath(...iter(place))]));
+}
+[zone, nearest] = iter(min(approaches, { key: ((each) => item(each, 1).distance) }));
+breaches = list(iter(approaches)).map((one) => iter(one)).filter(([zone, near]) => le(near.distance, add(margin_m, TOUCH_M))).map(([zone, near]) => _breach(zone, near, path, maneuver));
+ordered = tuple(sorted(breaches, { key: ((breach) => breach.time_s) }));
+least = min(ordered, { key: ((breach) => breach.clearance_m), default: null });
+closest_one = or(least, () => _at(zone, nearest.distance, nearest, path, maneuver));
+return FenceCheck(margin_m, closest_one, ordered, decimals_of(maneuver.orbit));
 }
 __post_init__() {
 let zone;
@@ -2218,25 +2238,213 @@ function _differ(corner, other) {
 return gt(math.dist(corner, other), SAME_CORNER_M);
 }
 
-function check_zones(fence, maneuver, margin_m) {
-let approaches, breaches, closest, closest_one, flown, least, nearest, ordered, path, places, zone, zones;
-[flown, maneuver] = iter([maneuver, (truth(isinstance(maneuver, LegPlan)) ? maneuver.entry : maneuver)]);
-arrays.unchecked("maneuver", maneuver, Maneuver);
-margin_m = ((margin_m == null) ? default_margin_m(maneuver.orbit) : not_negative("margin_m", margin_m, "metres"));
-path = flown_path(flown);
-_check_start(fence, maneuver.start);
-approaches = [];
-for ([zones, closest] of rows(zip(_by_kind(fence), approach(fence, path.pieces, margin_m)))) {
-places = zip(tolist_(closest.distance), tolist_(closest.piece), tolist_(closest.time_s));
-approaches = add(approaches, list(iter(zip(zones, places))).map((one) => iter(one)).map(([zone, place]) => [zone, PlaceInPath(...iter(place))]));
+function edges_of(polygons) {
+let ax, ay, bx, by, counts, ends, first, starts;
+starts = list(iter(polygons)).flatMap((zone) => list(iter(zone.corners)).map((corner) => corner));
+ends = list(iter(polygons)).flatMap((zone) => list(iter([...iter(sliced(zone.corners, 1, null, null)), item(zone.corners, 0)])).map((corner) => corner));
+counts = list(iter(polygons)).map((zone) => len(zone.corners));
+[[ax, ay], [bx, by]] = iter(list(iter([starts, ends])).map((places) => np.array(places, float).reshape(-1, 2).T));
+first = sliced(np.cumsum([0, ...iter(counts)]), null, -1, null).astype(np.intp);
+return Edges(ax, ay, bx, by, first, np.repeat(np.arange(len(counts)), counts));
 }
-[zone, nearest] = iter(min(approaches, { key: ((each) => item(each, 1).distance) }));
-breaches = list(iter(approaches)).map((one) => iter(one)).filter(([zone, near]) => le(near.distance, add(margin_m, TOUCH_M))).map(([zone, near]) => _breach(zone, near, path, maneuver));
-ordered = tuple(sorted(breaches, { key: ((breach) => breach.time_s) }));
-least = min(ordered, { key: ((breach) => breach.clearance_m), default: null });
-closest_one = or(least, () => _at(zone, nearest.distance, nearest, path, maneuver));
-return FenceCheck(margin_m, closest_one, ordered, decimals_of(maneuver.orbit));
+
+const LegPlan = struct(class extends Values {
+constructor(leg, entry, held_s, held_deg, exit, straight_s) {
+super();
+this.leg = leg;
+this.entry = entry;
+this.held_s = held_s;
+this.held_deg = held_deg;
+this.exit = exit;
+this.straight_s = straight_s;
+
 }
+get turn() {
+const self = this;
+return self.entry.turn;
+}
+get exit_s() {
+const self = this;
+return add(self.entry.duration_s, self.held_s);
+}
+get duration_s() {
+const self = this;
+return add(self.exit_s, self.straight_s);
+}
+get end() {
+let east_m, north_m;
+const self = this;
+[east_m, north_m] = iter(self.leg.exit_to);
+return Pose(east_m, north_m, self.exit.heading_deg);
+}
+sample(step_s) {
+let _, east_m, entry, held, held_s, north_m, on_circle, out, parts, shares, steps, time_s;
+const self = this;
+
+entry = self.entry.sample(step_s);
+steps = [max(math.ceil(div(self.held_s, step_s)), 1), max(math.ceil(div(self.straight_s, step_s)), 1)];
+if (gt(sum(steps), MAX_SAMPLES)) {
+throw errors.InvalidArgument("step_s", `is ${str(step_s)}: it would take more than ${MAX_SAMPLES} samples`);
+}
+[held, shares] = iter(list(iter(steps)).map((n) => sliced(np.linspace(0.0, 1.0, add(n, 1)), 1, null, null)));
+[held_s, on_circle, _] = with_middle(self.on_circle(tolist_(held)), 1, 1);
+out = [add(self.exit.east_m, mul(sub(self.end.east_m, self.exit.east_m), shares)), add(self.exit.north_m, mul(sub(self.end.north_m, self.exit.north_m), shares))];
+time_s = np.concatenate([entry.time_s, held_s, add(self.exit_s, mul(self.straight_s, shares))]);
+parts = zip([entry.east_m, entry.north_m], on_circle, out);
+[east_m, north_m] = iter(list(iter(parts)).map((part) => np.concatenate(part)));
+return Track(time_s, east_m, north_m, self._altitudes(time_s));
+}
+on_circle(shares) {
+let east_m, north_m, rows_, time_s;
+const self = this;
+
+rows_ = list(iter(hold_states(self, shares))).map((at) => [at.time_s, at.east_m, at.north_m]);
+[time_s, east_m, north_m] = iter(np.array(rows_).reshape(-1, 3).T);
+return Track(time_s, east_m, north_m, self._altitudes(time_s));
+}
+_altitudes(time_s) {
+let climb_s, leg, shares;
+const self = this;
+
+[leg, climb_s] = iter([self.leg, climb_time_s(self.leg, self.entry.aircraft)]);
+if (((leg.altitude_m == null) || (leg.pose.altitude_m == null))) {
+return np.full_like(time_s, math.nan);
+}
+shares = (gt(climb_s, 0.0) ? np.minimum(div(time_s, climb_s), 1.0) : np.ones_like(time_s));
+return add(leg.pose.altitude_m, mul(leg.climb_m, shares));
+}
+to_dict() {
+let east_m, north_m;
+const self = this;
+[east_m, north_m] = iter(self.leg.exit_to);
+return new Map([["duration_s", self.duration_s], ["turn", self.turn], ["entry", maneuver_maneuver_values(self.entry)], ["join_s", self.entry.duration_s], ["held_s", self.held_s], ["held_deg", self.held_deg], ["exit_s", self.exit_s], ["exit", pose_values(self.exit)], ["straight_s", self.straight_s], ["exit_to", new Map([["east_m", east_m], ["north_m", north_m]])], ["altitude_m", self.leg.altitude_m]]);
+}
+toString() {
+const self = this;
+return `${str(self._entry_and_hold())}, is at the point after ${format(self.duration_s, `.${String(decimals_of(self.leg.orbit))}f`)} s`;
+}
+_entry_and_hold() {
+let digits, entry;
+const self = this;
+digits = decimals_of(self.leg.orbit);
+entry = `${str(or(self.entry.word, () => "on the circle already"))}, ${str(Turn_described(self.turn))}`;
+return `${str(entry)}: joins in ${format(self.entry.duration_s, `.${String(digits)}f`)} s, holds for ${format(self.held_s, `.${String(digits)}f`)} s (${format(div(self.held_deg, 360.0), `.2f`)} turns)`;
+}
+}, ["leg", "entry", "held_s", "held_deg", "exit", "straight_s"], 'LegPlan');
+
+function default_margin_m(orbit) {
+arrays.unchecked("orbit", orbit, Orbit);
+return max(LEAST_MARGIN_M, mul(MARGIN_SHARE, orbit.radius_m));
+}
+
+function flown_path(flown) {
+let maneuver, rows_;
+maneuver = (truth(isinstance(flown, LegPlan)) ? flown.entry : flown);
+rows_ = list(iter(maneuver.segments)).map((segment) => _segment_row(segment, maneuver));
+append_(rows_, (truth(maneuver.orbit.moves) ? _moving_hold_row(maneuver) : _hold_row(maneuver)));
+if (truth(isinstance(flown, LegPlan))) {
+append_(rows_, _way_out_row(flown));
+}
+return FlownPath(Pieces(...iter(np.array(rows_, float).T)), len(maneuver.segments), maneuver.duration_s);
+}
+
+function _check_start(fence, start) {
+let distance_m, distances, zone, zones;
+for ([zones, distances] of rows(zip(_by_kind(fence), fence.signed_distances(start.east_m, start.north_m)))) {
+for ([zone, distance_m] of rows(zip(zones, tolist_(distances)))) {
+if (lt(distance_m, neg(TOUCH_M))) {
+throw errors.InvalidArgument("pose", _wrong_side(zone));
+}
+}
+}
+}
+
+function _by_kind(fence) {
+return [fence.polygons, fence.circle_zones];
+}
+
+function approach(fence, pieces, margin_m) {
+let bent, circles, j, parts, polygons, zones;
+[polygons, circles] = iter([Closest.none(len(fence.polygons)), Closest.none(len(fence.circle_zones))]);
+bent = item(pieces.bent.nonzero(), 0);
+if (truth(fence.polygons)) {
+if (truth(bent.size)) {
+_note_arcs_to_edges(polygons, pieces, bent, fence.edges);
+}
+[parts, j] = iter(_near_edges(polygons, pieces, fence.edges, margin_m));
+search__search(polygons, pieces, parts, j, _edge_bounds, fence.edges, fence.edges.zone, margin_m, true);
+}
+if (truth(fence.circle_zones)) {
+if (truth(bent.size)) {
+_note_arcs_to_circles(circles, pieces, bent, fence.circles);
+}
+zones = np.arange(len(fence.circle_zones));
+[parts, j] = iter(_pairs(first_parts(pieces, item(invert(pieces.bent).nonzero(), 0)), zones.size));
+search__search(circles, pieces, parts, j, _circle_bounds, fence.circles, zones, margin_m, false);
+}
+return [polygons, circles];
+}
+
+const PlaceInPath = struct(class extends Tuple {
+constructor(distance, piece, time_s) {
+super();
+this.distance = distance;
+this.piece = piece;
+this.time_s = time_s;
+
+}
+}, ["distance", "piece", "time_s"], 'PlaceInPath');
+
+function _breach(zone, near, path, maneuver) {
+let deepest, entry, place;
+if (gt(near.distance, TOUCH_M)) {
+return _at(zone, near.distance, near, path, maneuver);
+}
+entry = first_entry(path.pieces, zone);
+deepest = (truth(isinstance(zone, CircleZone)) ? near : least_distance(path.pieces, zone));
+place = (le(entry.distance, TOUCH_M) ? entry : deepest);
+return _at(zone, deepest.distance, place, path, maneuver);
+}
+
+function _at(zone, clearance_m, place, path, maneuver) {
+let flown_rad, holding, pieces, time_s, x, y;
+pieces = path.pieces;
+[x, y] = iter(pieces.take(place.piece).position(place.time_s));
+holding = eq(place.piece, path.hold);
+time_s = add(float(item(pieces.start_s, place.piece)), place.time_s);
+if ((truth(holding) && !truth(maneuver.orbit.moves))) {
+flown_rad = float(div(mul(place.time_s, item(pieces.speed, place.piece)), item(pieces.radius, place.piece)));
+time_s = add(path.hold_s, time_in_hold(maneuver, flown_rad));
+}
+return Breach(zone, clearance_m, float(x), float(y), time_s, holding);
+}
+
+const FenceCheck = struct(class extends Tuple {
+constructor(margin_m, closest, breaches, decimals = 1) {
+super();
+this.margin_m = margin_m;
+this.closest = closest;
+this.breaches = breaches;
+this.decimals = decimals;
+
+}
+get clear() {
+const self = this;
+return !truth(self.breaches);
+}
+get clearance_m() {
+const self = this;
+return self.closest.clearance_m;
+}
+sentence(frame = null) {
+const self = this;
+return (truth(self.clear) ? _clear_sentence(self, frame) : _breach_sentence(self, frame));
+}
+to_dict(frame = null) {
+const self = this;
+return new Map([["clear", self.clear], ["margin_m", self.margin_m], ["closest", _values(self.closest, frame)], ["breaches", list(iter(self.breaches)).map((breach) => _values(breach, frame))]]);
+}
+}, ["margin_m", "closest", "breaches", "decimals"], 'FenceCheck');
 
 function _check_common_point(inclusions) {
 let i, names, other, zone;
@@ -2248,16 +2456,6 @@ throw errors.InvalidArgument("fence", `has the inclusion zones ${str(names)} wit
 }
 }
 }
-}
-
-function edges_of(polygons) {
-let ax, ay, bx, by, counts, ends, first, starts;
-starts = list(iter(polygons)).flatMap((zone) => list(iter(zone.corners)).map((corner) => corner));
-ends = list(iter(polygons)).flatMap((zone) => list(iter([...iter(sliced(zone.corners, 1, null, null)), item(zone.corners, 0)])).map((corner) => corner));
-counts = list(iter(polygons)).map((zone) => len(zone.corners));
-[[ax, ay], [bx, by]] = iter(list(iter([starts, ends])).map((places) => np.array(places, float).reshape(-1, 2).T));
-first = sliced(np.cumsum([0, ...iter(counts)]), null, -1, null).astype(np.intp);
-return Edges(ax, ay, bx, by, first, np.repeat(np.arange(len(counts)), counts));
 }
 
 const Circles = struct(class extends Tuple {
@@ -2431,8 +2629,9 @@ return Violation(trajectory.miss, accuracy.end);
 }
 
 function join(trajectory, accuracy) {
-let last, start;
-[last, start] = iter([trajectory.reduced_join, trajectory.start]);
+let last, maneuver, start;
+[maneuver, start] = iter([trajectory.maneuver, trajectory.start]);
+last = replace(trajectory.problem, { pose: maneuver.join, orbit: maneuver.orbit_at_join, wind: CALM }).reduced();
 return Violation(math.hypot(last.x, sub(last.y, mul(start.side, start.R))), accuracy.join);
 }
 
@@ -2700,7 +2899,7 @@ yield _comparison(trajectory, accuracy, others);
 
 function _trajectory(maneuver, problem) {
 let controls, durations, flown, start;
-start = slot_certificate__start(problem, sign_of(held_turn(maneuver)));
+start = start_in_wind(problem, sign_of(held_turn(maneuver)));
 [controls, durations] = iter([list(iter(letters(arrays.word_of(maneuver)))).map((letter) => item(CONTROLS, letter)), durations_of(maneuver)]);
 if (!truth(controls)) {
 return Trajectory(maneuver, problem, start, 1.0, []);
@@ -3305,7 +3504,8 @@ return Mission(tuple(items), [...iter(end), runway_m]);
 function fastest_clear(fence, pose, orbit, aircraft, wind = null, margin_m = null) {
 let problem;
 problem = Problem(pose, orbit, aircraft, ((wind == null) ? CALM : wind));
-return _fastest_clear(fence, problem, _margin(fence, orbit, margin_m));
+arrays.unchecked("fence", fence, Fence);
+return _fastest_clear(fence, problem, checked_margin_m(orbit, margin_m));
 }
 
 function maneuver_maneuver_values(maneuver, pose = pose_values) {
@@ -3317,204 +3517,6 @@ let place;
 place = frame.place(pose);
 return bit_or(pose_values(pose), new Map([["latitude_deg", round(place.latitude_deg, places_DECIMALS)], ["longitude_deg", round(place.longitude_deg, places_DECIMALS)], ["true_heading_deg", place.heading_deg]]));
 }
-
-const LegPlan = struct(class extends Values {
-constructor(leg, entry, held_s, held_deg, exit, straight_s) {
-super();
-this.leg = leg;
-this.entry = entry;
-this.held_s = held_s;
-this.held_deg = held_deg;
-this.exit = exit;
-this.straight_s = straight_s;
-
-}
-get turn() {
-const self = this;
-return self.entry.turn;
-}
-get exit_s() {
-const self = this;
-return add(self.entry.duration_s, self.held_s);
-}
-get duration_s() {
-const self = this;
-return add(self.exit_s, self.straight_s);
-}
-get end() {
-let east_m, north_m;
-const self = this;
-[east_m, north_m] = iter(self.leg.exit_to);
-return Pose(east_m, north_m, self.exit.heading_deg);
-}
-sample(step_s) {
-let _, east_m, entry, held, held_s, north_m, on_circle, out, parts, shares, steps, time_s;
-const self = this;
-
-entry = self.entry.sample(step_s);
-steps = [max(math.ceil(div(self.held_s, step_s)), 1), max(math.ceil(div(self.straight_s, step_s)), 1)];
-if (gt(sum(steps), MAX_SAMPLES)) {
-throw errors.InvalidArgument("step_s", `is ${str(step_s)}: it would take more than ${MAX_SAMPLES} samples`);
-}
-[held, shares] = iter(list(iter(steps)).map((n) => sliced(np.linspace(0.0, 1.0, add(n, 1)), 1, null, null)));
-[held_s, on_circle, _] = with_middle(self.on_circle(tolist_(held)), 1, 1);
-out = [add(self.exit.east_m, mul(sub(self.end.east_m, self.exit.east_m), shares)), add(self.exit.north_m, mul(sub(self.end.north_m, self.exit.north_m), shares))];
-time_s = np.concatenate([entry.time_s, held_s, add(self.exit_s, mul(self.straight_s, shares))]);
-parts = zip([entry.east_m, entry.north_m], on_circle, out);
-[east_m, north_m] = iter(list(iter(parts)).map((part) => np.concatenate(part)));
-return Track(time_s, east_m, north_m, self._altitudes(time_s));
-}
-on_circle(shares) {
-let east_m, north_m, rows_, time_s;
-const self = this;
-
-rows_ = list(iter(hold_states(self, shares))).map((at) => [at.time_s, at.east_m, at.north_m]);
-[time_s, east_m, north_m] = iter(np.array(rows_).reshape(-1, 3).T);
-return Track(time_s, east_m, north_m, self._altitudes(time_s));
-}
-_altitudes(time_s) {
-let climb_s, leg, shares;
-const self = this;
-
-[leg, climb_s] = iter([self.leg, climb_time_s(self.leg, self.entry.aircraft)]);
-if (((leg.altitude_m == null) || (leg.pose.altitude_m == null))) {
-return np.full_like(time_s, math.nan);
-}
-shares = (gt(climb_s, 0.0) ? np.minimum(div(time_s, climb_s), 1.0) : np.ones_like(time_s));
-return add(leg.pose.altitude_m, mul(leg.climb_m, shares));
-}
-to_dict() {
-let east_m, north_m;
-const self = this;
-[east_m, north_m] = iter(self.leg.exit_to);
-return new Map([["duration_s", self.duration_s], ["turn", self.turn], ["entry", maneuver_maneuver_values(self.entry)], ["join_s", self.entry.duration_s], ["held_s", self.held_s], ["held_deg", self.held_deg], ["exit_s", self.exit_s], ["exit", pose_values(self.exit)], ["straight_s", self.straight_s], ["exit_to", new Map([["east_m", east_m], ["north_m", north_m]])], ["altitude_m", self.leg.altitude_m]]);
-}
-toString() {
-const self = this;
-return `${str(self._entry_and_hold())}, is at the point after ${format(self.duration_s, `.${String(decimals_of(self.leg.orbit))}f`)} s`;
-}
-_entry_and_hold() {
-let digits, entry;
-const self = this;
-digits = decimals_of(self.leg.orbit);
-entry = `${str(or(self.entry.word, () => "on the circle already"))}, ${str(Turn_described(self.turn))}`;
-return `${str(entry)}: joins in ${format(self.entry.duration_s, `.${String(digits)}f`)} s, holds for ${format(self.held_s, `.${String(digits)}f`)} s (${format(div(self.held_deg, 360.0), `.2f`)} turns)`;
-}
-}, ["leg", "entry", "held_s", "held_deg", "exit", "straight_s"], 'LegPlan');
-
-function default_margin_m(orbit) {
-arrays.unchecked("orbit", orbit, Orbit);
-return max(LEAST_MARGIN_M, mul(MARGIN_SHARE, orbit.radius_m));
-}
-
-function flown_path(flown) {
-let maneuver, rows_;
-maneuver = (truth(isinstance(flown, LegPlan)) ? flown.entry : flown);
-rows_ = list(iter(maneuver.segments)).map((segment) => _segment_row(segment, maneuver));
-append_(rows_, (truth(maneuver.orbit.moves) ? _moving_hold_row(maneuver) : _hold_row(maneuver)));
-if (truth(isinstance(flown, LegPlan))) {
-append_(rows_, _way_out_row(flown));
-}
-return FlownPath(Pieces(...iter(np.array(rows_, float).T)), len(maneuver.segments), maneuver.duration_s);
-}
-
-function _check_start(fence, start) {
-let distance_m, distances, zone, zones;
-for ([zones, distances] of rows(zip(_by_kind(fence), fence.signed_distances(start.east_m, start.north_m)))) {
-for ([zone, distance_m] of rows(zip(zones, tolist_(distances)))) {
-if (lt(distance_m, neg(TOUCH_M))) {
-throw errors.InvalidArgument("pose", _wrong_side(zone));
-}
-}
-}
-}
-
-function _by_kind(fence) {
-return [fence.polygons, fence.circle_zones];
-}
-
-function approach(fence, pieces, margin_m) {
-let bent, circles, j, parts, polygons, zones;
-[polygons, circles] = iter([Closest.none(len(fence.polygons)), Closest.none(len(fence.circle_zones))]);
-bent = item(pieces.bent.nonzero(), 0);
-if (truth(fence.polygons)) {
-if (truth(bent.size)) {
-_note_arcs_to_edges(polygons, pieces, bent, fence.edges);
-}
-[parts, j] = iter(_near_edges(polygons, pieces, fence.edges, margin_m));
-search__search(polygons, pieces, parts, j, _edge_bounds(fence.edges), fence.edges.zone, margin_m, true);
-}
-if (truth(fence.circle_zones)) {
-if (truth(bent.size)) {
-_note_arcs_to_circles(circles, pieces, bent, fence.circles);
-}
-zones = np.arange(len(fence.circle_zones));
-[parts, j] = iter(_pairs(first_parts(pieces, item(invert(pieces.bent).nonzero(), 0)), zones.size));
-search__search(circles, pieces, parts, j, _circle_bounds(fence.circles), zones, margin_m, false);
-}
-return [polygons, circles];
-}
-
-const PlaceInPath = struct(class extends Tuple {
-constructor(distance, piece, time_s) {
-super();
-this.distance = distance;
-this.piece = piece;
-this.time_s = time_s;
-
-}
-}, ["distance", "piece", "time_s"], 'PlaceInPath');
-
-function _breach(zone, near, path, maneuver) {
-let deepest, entry, place;
-if (gt(near.distance, TOUCH_M)) {
-return _at(zone, near.distance, near, path, maneuver);
-}
-entry = first_entry(path.pieces, zone);
-deepest = (truth(isinstance(zone, CircleZone)) ? near : least_distance(path.pieces, zone));
-place = (le(entry.distance, TOUCH_M) ? entry : deepest);
-return _at(zone, deepest.distance, place, path, maneuver);
-}
-
-function _at(zone, clearance_m, place, path, maneuver) {
-let flown_rad, holding, pieces, time_s, x, y;
-pieces = path.pieces;
-[x, y] = iter(pieces.take(place.piece).position(place.time_s));
-holding = eq(place.piece, path.hold);
-time_s = add(float(item(pieces.start_s, place.piece)), place.time_s);
-if ((truth(holding) && !truth(maneuver.orbit.moves))) {
-flown_rad = float(div(mul(place.time_s, item(pieces.speed, place.piece)), item(pieces.radius, place.piece)));
-time_s = add(path.hold_s, time_in_hold(maneuver, flown_rad));
-}
-return Breach(zone, clearance_m, float(x), float(y), time_s, holding);
-}
-
-const FenceCheck = struct(class extends Tuple {
-constructor(margin_m, closest, breaches, decimals = 1) {
-super();
-this.margin_m = margin_m;
-this.closest = closest;
-this.breaches = breaches;
-this.decimals = decimals;
-
-}
-get clear() {
-const self = this;
-return !truth(self.breaches);
-}
-get clearance_m() {
-const self = this;
-return self.closest.clearance_m;
-}
-sentence(frame = null) {
-const self = this;
-return (truth(self.clear) ? _clear_sentence(self, frame) : _breach_sentence(self, frame));
-}
-to_dict(frame = null) {
-const self = this;
-return new Map([["clear", self.clear], ["margin_m", self.margin_m], ["closest", _values(self.closest, frame)], ["breaches", list(iter(self.breaches)).map((breach) => _values(breach, frame))]]);
-}
-}, ["margin_m", "closest", "breaches", "decimals"], 'FenceCheck');
 
 const Edges = struct(class extends Tuple {
 constructor(ax, ay, bx, by, first, zone) {
@@ -3532,6 +3534,313 @@ const self = this;
 return replace(self, { ax: item(self.ax, i), ay: item(self.ay, i), bx: item(self.bx, i), by: item(self.by, i), zone: item(self.zone, i) });
 }
 }, ["ax", "ay", "bx", "by", "first", "zone"], 'Edges');
+
+const Track = struct(class extends Tuple {
+constructor(time_s, east_m, north_m, altitude_m) {
+super();
+this.time_s = time_s;
+this.east_m = east_m;
+this.north_m = north_m;
+this.altitude_m = altitude_m;
+
+}
+}, ["time_s", "east_m", "north_m", "altitude_m"], 'Track');
+
+function hold_states(plan, shares) {
+let R, _, aircraft, c, heading_deg, last, orbit, phase, r, s, share, side, states, time_s, width, wx, wy, x, y;
+[orbit, aircraft, r] = iter([plan.leg.orbit, plan.entry.aircraft, plan.entry.aircraft.turn_radius_m]);
+[side, R, width] = iter([sign_of(plan.turn), radius_in_turns(orbit, aircraft), math.radians(plan.held_deg)]);
+[wx, wy] = iter(relative_wind(orbit, aircraft, plan.entry.wind));
+last = kernel.phase_of(sub(plan.exit.east_m, orbit.east_m), sub(plan.exit.north_m, orbit.north_m), side, wx, wy);
+states = [];
+for (share of iter(shares)) {
+phase = sub(last, mul(sub(1.0, share), width));
+[x, y, c, s, _] = iter(kernel.hold_pose(phase, side, R, wx, wy));
+time_s = add(plan.entry.duration_s, mul(kernel.time_held(phase, mul(share, width), R, wx, wy), div(r, aircraft.airspeed_m_s)));
+heading_deg = heading_of(c, s);
+append_(states, HoldState(time_s, add(orbit.east_m, mul(r, x)), add(orbit.north_m, mul(r, y)), heading_deg));
+}
+return states;
+}
+
+function _segment_row(segment, maneuver) {
+let c, motion, s, start, uav;
+[c, s] = iter(heading_vector(segment.start.heading_deg));
+[uav, start] = iter([maneuver.aircraft, segment.start]);
+motion = [item(CONTROLS, segment.letter), radius_of(segment, uav), uav.airspeed_m_s, ...iter(maneuver.wind.velocity_m_s)];
+return [segment.start_s, segment.duration_s, start.east_m, start.north_m, c, s, ...iter(motion), 0.0];
+}
+
+function _moving_hold_row(maneuver) {
+let R, V, circle, east, motion, north, slowest, speed;
+circle = maneuver.orbit_at_join;
+[V, R] = iter([maneuver.aircraft.airspeed_m_s, circle.radius_m]);
+slowest = mul(V, sub(1.0, math.hypot(...iter(relative_wind(maneuver.orbit, maneuver.aircraft, maneuver.wind)))));
+[east, north] = iter([circle.velocity_east_m_s, circle.velocity_north_m_s]);
+speed = math.hypot(east, north);
+motion = [div(east, speed), div(north, speed), 0.0, R, speed, 0.0, 0.0];
+return [maneuver.duration_s, div(mul(mul(2.0, math.pi), R), slowest), circle.east_m, circle.north_m, ...iter(motion), R];
+}
+
+function _hold_row(maneuver) {
+let R, azimuth, circle, join, nx, ny, place, speed, u;
+[circle, join] = iter([maneuver.orbit, maneuver.join]);
+azimuth = math.atan2(sub(join.north_m, circle.north_m), sub(join.east_m, circle.east_m));
+[u, speed, R] = iter([neg(float(sign_of(maneuver.turn))), maneuver.aircraft.airspeed_m_s, circle.radius_m]);
+[nx, ny] = iter([math.cos(azimuth), math.sin(azimuth)]);
+place = [add(circle.east_m, mul(R, nx)), add(circle.north_m, mul(R, ny))];
+return [maneuver.duration_s, div(mul(mul(2.0, math.pi), R), speed), ...iter(place), mul(neg(u), ny), mul(u, nx), u, R, speed, 0.0, 0.0, 0.0];
+}
+
+function _way_out_row(leg) {
+let c, motion, place, s, uav;
+[c, s] = iter(heading_vector(leg.exit.heading_deg));
+[uav, place] = iter([leg.entry.aircraft, [leg.exit.east_m, leg.exit.north_m]]);
+motion = [0.0, uav.turn_radius_m, uav.airspeed_m_s, ...iter(leg.entry.wind.velocity_m_s)];
+return [leg.exit_s, leg.straight_s, ...iter(place), c, s, ...iter(motion), 0.0];
+}
+
+const FlownPath = struct(class extends Tuple {
+constructor(pieces, hold, hold_s) {
+super();
+this.pieces = pieces;
+this.hold = hold;
+this.hold_s = hold_s;
+
+}
+}, ["pieces", "hold", "hold_s"], 'FlownPath');
+
+const Pieces = struct(class extends Tuple {
+constructor(start_s, duration_s, x, y, c, s, u, radius, speed, wx, wy, widen) {
+super();
+this.start_s = start_s;
+this.duration_s = duration_s;
+this.x = x;
+this.y = y;
+this.c = c;
+this.s = s;
+this.u = u;
+this.radius = radius;
+this.speed = speed;
+this.wx = wx;
+this.wy = wy;
+this.widen = widen;
+
+}
+take(i) {
+const self = this;
+return Pieces(...iter(list(iter(self)).map((column) => item(column, i))));
+}
+position(time_s) {
+let angle, ch, chord, half, sh, x;
+const self = this;
+angle = div(mul(time_s, self.speed), self.radius);
+half = mul(mul(0.5, self.u), angle);
+chord = mul(self.radius, np.where(eq(self.u, 0.0), angle, mul(2.0, np.sin(mul(0.5, angle)))));
+[ch, sh] = iter([np.cos(half), np.sin(half)]);
+x = add(add(self.x, mul(chord, sub(mul(self.c, ch), mul(self.s, sh)))), mul(self.wx, time_s));
+return [x, add(add(self.y, mul(chord, add(mul(self.s, ch), mul(self.c, sh)))), mul(self.wy, time_s))];
+}
+get acceleration() {
+const self = this;
+return div(mul(abs(self.u), pow(self.speed, 2)), self.radius);
+}
+get bent() {
+const self = this;
+return bit_and(bit_and(ne(self.u, 0.0), eq(self.wx, 0.0)), eq(self.wy, 0.0));
+}
+}, ["start_s", "duration_s", "x", "y", "c", "s", "u", "radius", "speed", "wx", "wy", "widen"], 'Pieces');
+
+function _wrong_side(zone) {
+if (truth(zone.inclusion)) {
+return `is outside the inclusion zone ${repr(zone.name)}: a plan must begin inside`;
+}
+return `is inside the zone ${repr(zone.name)}: a plan must begin outside`;
+}
+
+const Closest = struct(class extends Tuple {
+constructor(distance, piece, time_s) {
+super();
+this.distance = distance;
+this.piece = piece;
+this.time_s = time_s;
+
+}
+static none(cls, count) {
+return cls(np.full(count, np.inf), np.zeros(count, np.intp), np.zeros(count));
+}
+note(zone, distance, piece, time_s) {
+let best;
+const self = this;
+np.minimum.at(self.distance, zone, distance);
+best = eq(distance, item(self.distance, zone));
+const unpacked1 = iter([item(piece, best), item(time_s, best)]);
+set_item(self.piece, item(zone, best), unpacked1[0]);
+set_item(self.time_s, item(zone, best), unpacked1[1]);
+}
+}, ["distance", "piece", "time_s"], 'Closest');
+
+function _note_arcs_to_edges(closest, pieces, bent, edges) {
+let found;
+found = arc_to_edge(arcs_of(pieces.take(bent)), edges);
+_note(closest, found.distance, found.share, pieces, bent, edges.zone);
+}
+
+function _near_edges(closest, pieces, edges, margin_m) {
+let at, chords, half, keep, middle, parts, piece, upper, x, y, zone;
+parts = first_parts(pieces, item(invert(pieces.bent).nonzero(), 0));
+[chords, zone] = iter([Chords.of(pieces, parts), np.broadcast_to(edges.zone, [parts.piece.size, edges.zone.size])]);
+[x, y] = iter([mul(0.5, item(add(chords.ax, chords.bx), [slice(null, null), null])), mul(0.5, item(add(chords.ay, chords.by), [slice(null, null), null]))]);
+middle = sub(to_edge(x, y, edges), item(chords.widen, [slice(null, null), null]));
+half = add(mul(0.5, np.hypot(sub(chords.bx, chords.ax), sub(chords.by, chords.ay))), chords.off);
+[upper, at] = iter([add(middle, item(chords.off, [slice(null, null), null])), np.broadcast_to(mul(0.5, item(add(parts.a, parts.b), [slice(null, null), null])), zone.shape)]);
+piece = np.broadcast_to(item(parts.piece, [slice(null, null), null]), zone.shape);
+closest.note(zone.ravel(), upper.ravel(), piece.ravel(), at.ravel());
+keep = _undecided(closest, sub(middle, item(half, [slice(null, null), null])).ravel(), zone.ravel(), margin_m, true);
+return [parts.take(floordiv(keep, edges.zone.size)), mod(keep, edges.zone.size)];
+}
+
+function search__search(closest, pieces, parts, j, bounds, shapes, zone, margin_m, unsigned) {
+let _, found, keep;
+for (_ of iter(range(MOST_LEVELS))) {
+if (!truth(parts.piece.size)) {
+return;
+}
+found = bounds(shapes, Chords.of(pieces, parts), parts, j);
+closest.note(item(zone, j), found.upper, parts.piece, found.at);
+keep = _undecided(closest, found.lower, item(zone, j), margin_m, unsigned);
+[parts, j] = iter([parts.take(keep).split(), np.repeat(item(j, keep), SPLIT)]);
+}
+}
+
+function _edge_bounds(edges, chords, parts, j) {
+let found;
+found = chord_to_edge(chords.ax, chords.ay, chords.bx, chords.by, edges.take(j)).nearest;
+return _around(found, chords, parts);
+}
+
+function _note_arcs_to_circles(closest, pieces, bent, circles) {
+let distance, largest, least, outside;
+[least, largest] = iter(arc_to_point(arcs_of(pieces.take(bent)), circles.x, circles.y));
+outside = gt(circles.sign, 0.0);
+distance = mul(circles.sign, sub(np.where(outside, least.distance, largest.distance), circles.radius));
+_note(closest, distance, np.where(outside, least.share, largest.share), pieces, bent, np.arange(circles.x.size));
+}
+
+function _pairs(parts, count) {
+let n;
+n = parts.piece.size;
+return [parts.take(np.repeat(np.arange(n), count)), np.tile(np.arange(count), n)];
+}
+
+function first_parts(pieces, chosen) {
+let angle, counts, k, piece, width;
+angle = div(mul(mul(abs(pieces.u), pieces.speed), pieces.duration_s), pieces.radius);
+counts = item(np.maximum(1, np.ceil(div(angle, FIRST_PART_RAD))).astype(np.intp), chosen);
+piece = np.repeat(chosen, counts);
+k = sub(np.arange(piece.size), np.repeat(sub(np.cumsum(counts), counts), counts));
+width = div(item(pieces.duration_s, piece), np.repeat(counts, counts));
+return Parts(piece, mul(k, width), mul(add(k, 1), width));
+}
+
+function _circle_bounds(circles, chords, parts, j) {
+let each, far, found, from_a, from_b, near, outside, shift, x, y;
+[x, y] = iter([item(circles.x, j), item(circles.y, j)]);
+near = chord_to_point(chords.ax, chords.ay, chords.bx, chords.by, x, y);
+[from_a, from_b] = iter([np.hypot(sub(chords.ax, x), sub(chords.ay, y)), np.hypot(sub(chords.bx, x), sub(chords.by, y))]);
+far = Nearest(neg(np.maximum(from_a, from_b)), np.where(gt(from_a, from_b), 0.0, 1.0));
+outside = gt(item(circles.sign, j), 0.0);
+each = Nearest(np.where(outside, near.distance, far.distance), np.where(outside, near.share, far.share));
+found = _around(each, chords, parts);
+shift = mul(item(circles.sign, j), item(circles.radius, j));
+return Bounds(sub(found.lower, shift), sub(found.upper, shift), found.at);
+}
+
+function first_entry(pieces, zone) {
+let entry, searched, simple, until_s;
+simple = bit_and(bit_or(eq(pieces.u, 0.0), pieces.bent), eq(pieces.widen, 0.0));
+entry = _first_touch(pieces, simple, zone);
+until_s = (lt(entry.distance, np.inf) ? add(item(pieces.start_s, entry.piece), entry.time_s) : np.inf);
+searched = item(bit_and(invert(simple), lt(pieces.start_s, until_s)).nonzero(), 0);
+return (truth(searched.size) ? _searched_entry(pieces, searched, zone, entry, until_s) : entry);
+}
+
+function least_distance(pieces, zone) {
+let _, best, found, i, parts;
+parts = first_parts(pieces, np.arange(pieces.x.size));
+best = PlaceInPath(np.inf, 0, 0.0);
+for (_ of iter(range(MOST_LEVELS))) {
+found = signed_bounds(zone, Chords.of(pieces, parts), parts);
+i = int(found.upper.argmin());
+if (lt(item(found.upper, i), best.distance)) {
+best = PlaceInPath(float(item(found.upper, i)), int(item(parts.piece, i)), float(item(found.at, i)));
+}
+parts = parts.take(item(lt(found.lower, sub(best.distance, RESOLUTION_M)).nonzero(), 0));
+if (!truth(parts.piece.size)) {
+break;
+}
+parts = parts.split();
+}
+return best;
+}
+
+function time_in_hold(maneuver, flown_rad) {
+let begin, circle, held, join, side, uav, wx, wy;
+[circle, join, uav, side] = iter([maneuver.orbit, maneuver.join, maneuver.aircraft, sign_of(maneuver.turn)]);
+[wx, wy] = iter(relative_wind(circle, uav, maneuver.wind));
+begin = kernel.phase_of(sub(join.east_m, circle.east_m), sub(join.north_m, circle.north_m), side, wx, wy);
+held = kernel.time_held(add(begin, flown_rad), flown_rad, radius_in_turns(circle, uav), wx, wy);
+return div(mul(held, uav.turn_radius_m), uav.airspeed_m_s);
+}
+
+const Breach = struct(class extends Tuple {
+constructor(zone, clearance_m, east_m, north_m, time_s, holding) {
+super();
+this.zone = zone;
+this.clearance_m = clearance_m;
+this.east_m = east_m;
+this.north_m = north_m;
+this.time_s = time_s;
+this.holding = holding;
+
+}
+get enters() {
+const self = this;
+return le(self.clearance_m, TOUCH_M);
+}
+}, ["zone", "clearance_m", "east_m", "north_m", "time_s", "holding"], 'Breach');
+
+function _clear_sentence(found, frame) {
+let near, where;
+near = found.closest;
+where = `at ${str(fence__place(near, frame, found.decimals))}`;
+return `The plan and its hold stay clear of the fence, ${format(near.clearance_m, `.${String(found.decimals)}f`)} m from ${str(_named(near.zone))} at least, ${str(where)}.`;
+}
+
+function _breach_sentence(found, frame) {
+let d, depth, does, first, more, near, others, where;
+[first, ...others] = iter(found.breaches);
+d = found.decimals;
+where = `${str((truth(first.holding) ? "on the circle, " : ""))}in ${format(first.time_s, `.${String(d)}f`)} s, at ${str(fence__place(first, frame, d))}`;
+more = (truth(others) ? `; ${str(_and_others(others))}` : "");
+if (!truth(first.enters)) {
+near = `comes within ${format(first.clearance_m, `.${String(d)}f`)} m of ${str(_named(first.zone))} ${str(where)}`;
+return `The plan ${str(near)}, less than the margin of ${format(found.margin_m, `g`)} m${str(more)}.`;
+}
+does = (truth(first.zone.inclusion) ? "leaves" : "enters");
+depth = (lt(first.clearance_m, neg(TOUCH_M)) ? `by up to ${format(max(0.0, neg(first.clearance_m)), `.${String(d)}f`)} m` : "where it touches it");
+return `The plan ${str(does)} ${str(_named(first.zone))} ${str(where)}, ${str(depth)}${str(more)}.`;
+}
+
+function _values(breach, frame) {
+let place, values;
+values = new Map([["zone", breach.zone.name], ["inclusion", breach.zone.inclusion], ["clearance_m", breach.clearance_m], ["enters", breach.enters], ["time_s", breach.time_s], ["holding", breach.holding], ["east_m", breach.east_m], ["north_m", breach.north_m]]);
+if ((frame == null)) {
+return values;
+}
+place = frame.place(Pose(breach.east_m, breach.north_m, 0.0));
+return bit_or(values, new Map([["latitude_deg", place.latitude_deg], ["longitude_deg", place.longitude_deg]]));
+}
 
 function _status(orbit, aircraft, air) {
 let R;
@@ -3628,13 +3937,12 @@ this.later_s = later_s;
 }, ["word", "turn", "duration_s", "later_s"], 'Candidate');
 
 function _start(problem, side) {
-let R, _, c, s, wx, wy, x, y;
+let R, _, x, y;
 if (truth(problem.has_closed_form)) {
 [x, y, R, _, _] = iter(problem.reduced());
 return RelativeStart(complex(x, y), add(1.0, new Complex(0.0, 0.0)), new Complex(0.0, 0.0), R, side);
 }
-[x, y, c, s, R, _, wx, wy, _] = iter(problem.in_wind());
-return RelativeStart(complex(x, y), complex(c, s), complex(wx, wy), R, side);
+return start_in_wind(problem, side);
 }
 
 function sign_of(turn) {
@@ -3705,12 +4013,6 @@ get duration() {
 const self = this;
 return sum(list(iter(self.pieces)).map((piece) => piece.t));
 }
-get reduced_join() { return cached(this, "reduced_join", () => {
-let maneuver;
-const self = this;
-maneuver = self.maneuver;
-return replace(self.problem, { pose: maneuver.join, orbit: maneuver.orbit_at_join, wind: CALM }).reduced();
-}); }
 get violations() { return cached(this, "violations", () => {
 let e, hamiltonian, lam, last, norm, now, off, piece, psi1, q, sign;
 const self = this;
@@ -3915,7 +4217,7 @@ note = (gt(sooner, accuracy.tie) ? `${str(other.word)} ${str(other.turn)} is fas
 return Residual("fastest", "T is the least of all candidates", sooner, accuracy.tie, note);
 }
 
-function slot_certificate__start(problem, side) {
+function start_in_wind(problem, side) {
 let R, _, c, s, wx, wy, x, y;
 [x, y, c, s, R, _, wx, wy, _] = iter(problem.in_wind());
 return RelativeStart(complex(x, y), complex(c, s), complex(wx, wy), R, side);
@@ -4227,23 +4529,6 @@ this.heading_deg = heading_deg;
 }
 }, ["time_s", "east_m", "north_m", "heading_deg"], 'HoldState');
 
-function hold_states(plan, shares) {
-let R, _, aircraft, c, heading_deg, last, orbit, phase, r, s, share, side, states, time_s, width, wx, wy, x, y;
-[orbit, aircraft, r] = iter([plan.leg.orbit, plan.entry.aircraft, plan.entry.aircraft.turn_radius_m]);
-[side, R, width] = iter([sign_of(plan.turn), radius_in_turns(orbit, aircraft), math.radians(plan.held_deg)]);
-[wx, wy] = iter(relative_wind(orbit, aircraft, plan.entry.wind));
-last = kernel.phase_of(sub(plan.exit.east_m, orbit.east_m), sub(plan.exit.north_m, orbit.north_m), side, wx, wy);
-states = [];
-for (share of iter(shares)) {
-phase = sub(last, mul(sub(1.0, share), width));
-[x, y, c, s, _] = iter(kernel.hold_pose(phase, side, R, wx, wy));
-time_s = add(plan.entry.duration_s, mul(kernel.time_held(phase, mul(share, width), R, wx, wy), div(r, aircraft.airspeed_m_s)));
-heading_deg = heading_of(c, s);
-append_(states, HoldState(time_s, add(orbit.east_m, mul(r, x)), add(orbit.north_m, mul(r, y)), heading_deg));
-}
-return states;
-}
-
 function _shares(held_deg) {
 let first, shares, steps, turns;
 turns = div(held_deg, 360.0);
@@ -4319,8 +4604,7 @@ later_s = sub(best.duration_s, item(known, 0).duration_s);
 return replace(found, { maneuver: best, check: fence.check(best, margin_m), later_s: later_s, searched: true, least_s: least_s });
 }
 
-function _margin(fence, orbit, margin_m) {
-arrays.unchecked("fence", fence, Fence);
+function checked_margin_m(orbit, margin_m) {
 return ((margin_m == null) ? default_margin_m(orbit) : not_negative("margin_m", margin_m, "metres"));
 }
 
@@ -4335,302 +4619,211 @@ function maneuver__segment(segment, pose) {
 return new Map([["letter", segment.letter], ["start_s", segment.start_s], ["duration_s", segment.duration_s], ["length_m", segment.length_m], ["curvature_per_m", segment.curvature_per_m], ["start", pose(segment.start)], ["end", pose(segment.end)]]);
 }
 
-const Track = struct(class extends Tuple {
-constructor(time_s, east_m, north_m, altitude_m) {
+function arc_to_edge(arcs, edges) {
+return _least(...iter(arc_edge_points(arcs, edges)));
+}
+
+function arcs_of(pieces) {
+let angle, nx, ny, p;
+p = pieces.take([slice(null), null]);
+[nx, ny] = iter([mul(p.u, p.s), mul(neg(p.u), p.c)]);
+angle = div(mul(p.duration_s, p.speed), p.radius);
+return Arcs(sub(p.x, mul(p.radius, nx)), sub(p.y, mul(p.radius, ny)), p.radius, nx, ny, p.u, angle);
+}
+
+function _note(closest, distance, share, pieces, bent, zone) {
+let own, piece;
+piece = np.broadcast_to(item(bent, [slice(null, null), null]), distance.shape);
+own = np.broadcast_to(zone, distance.shape);
+closest.note(own.ravel(), distance.ravel(), piece.ravel(), mul(share, item(pieces.duration_s, piece)).ravel());
+}
+
+const Chords = struct(class extends Tuple {
+constructor(ax, ay, bx, by, off, widen) {
 super();
-this.time_s = time_s;
-this.east_m = east_m;
-this.north_m = north_m;
-this.altitude_m = altitude_m;
-
-}
-}, ["time_s", "east_m", "north_m", "altitude_m"], 'Track');
-
-function _segment_row(segment, maneuver) {
-let c, motion, s, start, uav;
-[c, s] = iter(heading_vector(segment.start.heading_deg));
-[uav, start] = iter([maneuver.aircraft, segment.start]);
-motion = [item(CONTROLS, segment.letter), radius_of(segment, uav), uav.airspeed_m_s, ...iter(maneuver.wind.velocity_m_s)];
-return [segment.start_s, segment.duration_s, start.east_m, start.north_m, c, s, ...iter(motion), 0.0];
-}
-
-function _moving_hold_row(maneuver) {
-let R, V, circle, east, motion, north, slowest, speed;
-circle = maneuver.orbit_at_join;
-[V, R] = iter([maneuver.aircraft.airspeed_m_s, circle.radius_m]);
-slowest = mul(V, sub(1.0, math.hypot(...iter(relative_wind(maneuver.orbit, maneuver.aircraft, maneuver.wind)))));
-[east, north] = iter([circle.velocity_east_m_s, circle.velocity_north_m_s]);
-speed = math.hypot(east, north);
-motion = [div(east, speed), div(north, speed), 0.0, R, speed, 0.0, 0.0];
-return [maneuver.duration_s, div(mul(mul(2.0, math.pi), R), slowest), circle.east_m, circle.north_m, ...iter(motion), R];
-}
-
-function _hold_row(maneuver) {
-let R, azimuth, circle, join, nx, ny, place, speed, u;
-[circle, join] = iter([maneuver.orbit, maneuver.join]);
-azimuth = math.atan2(sub(join.north_m, circle.north_m), sub(join.east_m, circle.east_m));
-[u, speed, R] = iter([neg(float(sign_of(maneuver.turn))), maneuver.aircraft.airspeed_m_s, circle.radius_m]);
-[nx, ny] = iter([math.cos(azimuth), math.sin(azimuth)]);
-place = [add(circle.east_m, mul(R, nx)), add(circle.north_m, mul(R, ny))];
-return [maneuver.duration_s, div(mul(mul(2.0, math.pi), R), speed), ...iter(place), mul(neg(u), ny), mul(u, nx), u, R, speed, 0.0, 0.0, 0.0];
-}
-
-function _way_out_row(leg) {
-let c, motion, place, s, uav;
-[c, s] = iter(heading_vector(leg.exit.heading_deg));
-[uav, place] = iter([leg.entry.aircraft, [leg.exit.east_m, leg.exit.north_m]]);
-motion = [0.0, uav.turn_radius_m, uav.airspeed_m_s, ...iter(leg.entry.wind.velocity_m_s)];
-return [leg.exit_s, leg.straight_s, ...iter(place), c, s, ...iter(motion), 0.0];
-}
-
-const FlownPath = struct(class extends Tuple {
-constructor(pieces, hold, hold_s) {
-super();
-this.pieces = pieces;
-this.hold = hold;
-this.hold_s = hold_s;
-
-}
-}, ["pieces", "hold", "hold_s"], 'FlownPath');
-
-const Pieces = struct(class extends Tuple {
-constructor(start_s, duration_s, x, y, c, s, u, radius, speed, wx, wy, widen) {
-super();
-this.start_s = start_s;
-this.duration_s = duration_s;
-this.x = x;
-this.y = y;
-this.c = c;
-this.s = s;
-this.u = u;
-this.radius = radius;
-this.speed = speed;
-this.wx = wx;
-this.wy = wy;
+this.ax = ax;
+this.ay = ay;
+this.bx = bx;
+this.by = by;
+this.off = off;
 this.widen = widen;
 
 }
+static of(cls, pieces, parts) {
+let off, own;
+own = pieces.take(parts.piece);
+off = div(mul(own.acceleration, pow(sub(parts.b, parts.a), 2)), 8.0);
+return cls(...iter(own.position(parts.a)), ...iter(own.position(parts.b)), off, own.widen);
+}
+columns() {
+const self = this;
+return Chords(...iter(list(iter(self)).map((column) => item(column, [slice(null, null), null]))));
+}
+}, ["ax", "ay", "bx", "by", "off", "widen"], 'Chords');
+
+function _undecided(closest, lower, zone, margin_m, unsigned) {
+let known, matters, touches;
+known = item(closest.distance, zone);
+touches = (truth(unsigned) ? le(known, TOUCH_M) : np.zeros(known.shape, bool));
+matters = bit_or(le(lower, add(margin_m, TOUCH_M)), lt(lower, sub(closest.distance.min(), RESOLUTION_M)));
+return item(bit_and(bit_and(lt(lower, sub(known, RESOLUTION_M)), invert(touches)), matters).nonzero(), 0);
+}
+
+function chord_to_edge(ax, ay, bx, by, edges) {
+let distances, shares;
+[distances, shares] = iter(chord_edge_points(ax, ay, bx, by, edges));
+return ChordToEdge(item(distances, 0), item(distances, 1), _least(distances, shares));
+}
+
+function _around(found, chords, parts) {
+let at, distance;
+at = add(parts.a, mul(found.share, sub(parts.b, parts.a)));
+distance = sub(found.distance, chords.widen);
+return Bounds(sub(distance, chords.off), add(distance, chords.off), at);
+}
+
+function arc_to_point(arcs, x, y) {
+let at_ends, away, ends, far, largest, least, near, qx, qy, r, safe, towards, vx, vy, zero;
+[vx, vy] = iter([sub(x, arcs.x), sub(y, arcs.y)]);
+r = np.hypot(vx, vy);
+safe = np.maximum(r, np.finfo(float).tiny);
+[qx, qy] = iter([div(vx, safe), div(vy, safe)]);
+at_ends = list(iter([0.0, 1.0])).map((share) => arcs.direction(share));
+ends = list(iter(at_ends)).map((one) => iter(one)).map(([ox, oy]) => np.hypot(sub(mul(arcs.radius, ox), vx), sub(mul(arcs.radius, oy), vy)));
+[towards, away] = iter([arcs.share(qx, qy), arcs.share(neg(qx), neg(qy))]);
+[near, far] = iter([np.where(le(towards, 1.0), abs(sub(r, arcs.radius)), np.inf), np.where(le(away, 1.0), add(r, arcs.radius), neg(np.inf))]);
+zero = np.zeros_like(r);
+least = _least([...iter(ends), near], [zero, add(zero, 1.0), towards]);
+largest = _least([...iter(list(iter(ends)).map((end) => neg(end))), neg(far)], [zero, add(zero, 1.0), away]);
+return Extremes(least, Nearest(neg(largest.distance), largest.share));
+}
+
+const Parts = struct(class extends Tuple {
+constructor(piece, a, b) {
+super();
+this.piece = piece;
+this.a = a;
+this.b = b;
+
+}
+split() {
+let shares, times;
+const self = this;
+shares = div(np.arange(add(SPLIT, 1)), SPLIT);
+times = add(item(self.a, [slice(null, null), null]), mul(shares, item(sub(self.b, self.a), [slice(null, null), null])));
+return Parts(np.repeat(self.piece, SPLIT), item(times, [slice(null, null), slice(null, -1)]).ravel(), item(times, [slice(null, null), slice(1, null)]).ravel());
+}
 take(i) {
 const self = this;
-return Pieces(...iter(list(iter(self)).map((column) => item(column, i))));
+return Parts(item(self.piece, i), item(self.a, i), item(self.b, i));
 }
-position(time_s) {
-let angle, ch, chord, half, sh, x;
-const self = this;
-angle = div(mul(time_s, self.speed), self.radius);
-half = mul(mul(0.5, self.u), angle);
-chord = mul(self.radius, np.where(eq(self.u, 0.0), angle, mul(2.0, np.sin(mul(0.5, angle)))));
-[ch, sh] = iter([np.cos(half), np.sin(half)]);
-x = add(add(self.x, mul(chord, sub(mul(self.c, ch), mul(self.s, sh)))), mul(self.wx, time_s));
-return [x, add(add(self.y, mul(chord, add(mul(self.s, ch), mul(self.c, sh)))), mul(self.wy, time_s))];
-}
-get acceleration() {
-const self = this;
-return div(mul(abs(self.u), pow(self.speed, 2)), self.radius);
-}
-get bent() {
-const self = this;
-return bit_and(bit_and(ne(self.u, 0.0), eq(self.wx, 0.0)), eq(self.wy, 0.0));
-}
-}, ["start_s", "duration_s", "x", "y", "c", "s", "u", "radius", "speed", "wx", "wy", "widen"], 'Pieces');
+}, ["piece", "a", "b"], 'Parts');
 
-function _wrong_side(zone) {
-if (truth(zone.inclusion)) {
-return `is outside the inclusion zone ${repr(zone.name)}: a plan must begin inside`;
-}
-return `is inside the zone ${repr(zone.name)}: a plan must begin outside`;
+function chord_to_point(ax, ay, bx, by, x, y) {
+let share;
+share = foot_share(x, y, ax, ay, bx, by);
+return Nearest(np.hypot(sub(add(ax, mul(share, sub(bx, ax))), x), sub(add(ay, mul(share, sub(by, ay))), y)), share);
 }
 
-const Closest = struct(class extends Tuple {
-constructor(distance, piece, time_s) {
+const Nearest = struct(class extends Tuple {
+constructor(distance, share) {
 super();
 this.distance = distance;
-this.piece = piece;
-this.time_s = time_s;
+this.share = share;
 
 }
-static none(cls, count) {
-return cls(np.full(count, np.inf), np.zeros(count, np.intp), np.zeros(count));
-}
-note(zone, distance, piece, time_s) {
-let best;
-const self = this;
-np.minimum.at(self.distance, zone, distance);
-best = eq(distance, item(self.distance, zone));
-const unpacked1 = iter([item(piece, best), item(time_s, best)]);
-set_item(self.piece, item(zone, best), unpacked1[0]);
-set_item(self.time_s, item(zone, best), unpacked1[1]);
-}
-}, ["distance", "piece", "time_s"], 'Closest');
+}, ["distance", "share"], 'Nearest');
 
-function _note_arcs_to_edges(closest, pieces, bent, edges) {
-let found;
-found = arc_to_edge(arcs_of(pieces.take(bent)), edges);
-_note(closest, found.distance, found.share, pieces, bent, edges.zone);
+const Bounds = struct(class extends Tuple {
+constructor(lower, upper, at) {
+super();
+this.lower = lower;
+this.upper = upper;
+this.at = at;
+
+}
+}, ["lower", "upper", "at"], 'Bounds');
+
+function _first_touch(pieces, simple, zone) {
+let arcs, ax, ay, bent, bx, by, i, lines, share, straight, times, touched;
+share = np.full(pieces.x.size, np.inf);
+[bent, straight] = iter(list(iter([pieces.bent, eq(pieces.u, 0.0)])).map((kind) => item(bit_and(simple, kind).nonzero(), 0)));
+if (truth(bent.size)) {
+arcs = arcs_of(pieces.take(bent));
+if (truth(isinstance(zone, PolygonZone))) {
+set_item(share, bent, first_within(...iter(arc_edge_points(arcs, zone.edges)), TOUCH_M).min({ axis: -1 }));
+} else {
+set_item(share, bent, first_within(...iter(arc_circle_points(arcs, ...iter(_disc(zone)))), TOUCH_M).min({ axis: -1 }));
+}
+}
+if (truth(straight.size)) {
+lines = pieces.take(straight);
+[[ax, ay], [bx, by]] = iter(list(iter([0.0, lines.duration_s])).map((t) => list(iter(lines.position(t))).map((v) => item(v, [slice(null, null), null]))));
+if (truth(isinstance(zone, PolygonZone))) {
+set_item(share, straight, first_within(...iter(chord_edge_points(ax, ay, bx, by, zone.edges)), TOUCH_M).min({ axis: -1 }));
+} else {
+set_item(share, straight, first_within(...iter(chord_circle_points(ax, ay, bx, by, ...iter(_disc(zone)))), TOUCH_M).min({ axis: -1 }));
+}
+}
+touched = item(lt(share, np.inf).nonzero(), 0);
+if (!truth(touched.size)) {
+return PlaceInPath(np.inf, 0, 0.0);
+}
+times = mul(item(share, touched), item(pieces.duration_s, touched));
+i = int(add(item(pieces.start_s, touched), times).argmin());
+return PlaceInPath(0.0, int(item(touched, i)), float(item(times, i)));
 }
 
-function _near_edges(closest, pieces, edges, margin_m) {
-let at, chords, half, keep, middle, parts, piece, upper, x, y, zone;
-parts = first_parts(pieces, item(invert(pieces.bent).nonzero(), 0));
-[chords, zone] = iter([Chords.of(pieces, parts), np.broadcast_to(edges.zone, [parts.piece.size, edges.zone.size])]);
-[x, y] = iter([mul(0.5, item(add(chords.ax, chords.bx), [slice(null, null), null])), mul(0.5, item(add(chords.ay, chords.by), [slice(null, null), null]))]);
-middle = sub(to_edge(x, y, edges), item(chords.widen, [slice(null, null), null]));
-half = add(mul(0.5, np.hypot(sub(chords.bx, chords.ax), sub(chords.by, chords.ay))), chords.off);
-[upper, at] = iter([add(middle, item(chords.off, [slice(null, null), null])), np.broadcast_to(mul(0.5, item(add(parts.a, parts.b), [slice(null, null), null])), zone.shape)]);
-piece = np.broadcast_to(item(parts.piece, [slice(null, null), null]), zone.shape);
-closest.note(zone.ravel(), upper.ravel(), piece.ravel(), at.ravel());
-keep = _undecided(closest, sub(middle, item(half, [slice(null, null), null])).ravel(), zone.ravel(), margin_m, true);
-return [parts.take(floordiv(keep, edges.zone.size)), mod(keep, edges.zone.size)];
-}
-
-function search__search(closest, pieces, parts, j, bounds, zone, margin_m, unsigned) {
-let _, found, keep;
+function _searched_entry(pieces, searched, zone, known, known_s) {
+let _, before, entry, entry_s, found, i, keep, parts, step_s, times;
+parts = first_parts(pieces, searched);
+step_s = div(TOUCH_M, float(add(pieces.speed, np.hypot(pieces.wx, pieces.wy)).max()));
+[entry, entry_s] = iter([known, known_s]);
 for (_ of iter(range(MOST_LEVELS))) {
-if (!truth(parts.piece.size)) {
-return;
+found = signed_bounds(zone, Chords.of(pieces, parts), parts);
+times = np.where(le(found.upper, TOUCH_M), add(item(pieces.start_s, parts.piece), found.at), np.inf);
+i = int(times.argmin());
+if (lt(item(times, i), entry_s)) {
+[entry, entry_s] = iter([PlaceInPath(float(item(found.upper, i)), int(item(parts.piece, i)), float(item(found.at, i))), float(item(times, i))]);
 }
-found = bounds(Chords.of(pieces, parts), parts, j);
-closest.note(item(zone, j), found.upper, parts.piece, found.at);
-keep = _undecided(closest, found.lower, item(zone, j), margin_m, unsigned);
-[parts, j] = iter([parts.take(keep).split(), np.repeat(item(j, keep), SPLIT)]);
-}
-}
-
-function _edge_bounds(edges) {
-let bounds;
-bounds = function (chords, parts, j) {
-let found;
-found = chord_to_edge(chords.ax, chords.ay, chords.bx, chords.by, edges.take(j)).nearest;
-return _around(found, chords, parts);
-};
-return bounds;
-}
-
-function _note_arcs_to_circles(closest, pieces, bent, circles) {
-let distance, largest, least, outside;
-[least, largest] = iter(arc_to_point(arcs_of(pieces.take(bent)), circles.x, circles.y));
-outside = gt(circles.sign, 0.0);
-distance = mul(circles.sign, sub(np.where(outside, least.distance, largest.distance), circles.radius));
-_note(closest, distance, np.where(outside, least.share, largest.share), pieces, bent, np.arange(circles.x.size));
-}
-
-function _pairs(parts, count) {
-let n;
-n = parts.piece.size;
-return [parts.take(np.repeat(np.arange(n), count)), np.tile(np.arange(count), n)];
-}
-
-function first_parts(pieces, chosen) {
-let angle, counts, k, piece, width;
-angle = div(mul(mul(abs(pieces.u), pieces.speed), pieces.duration_s), pieces.radius);
-counts = item(np.maximum(1, np.ceil(div(angle, FIRST_PART_RAD))).astype(np.intp), chosen);
-piece = np.repeat(chosen, counts);
-k = sub(np.arange(piece.size), np.repeat(sub(np.cumsum(counts), counts), counts));
-width = div(item(pieces.duration_s, piece), np.repeat(counts, counts));
-return Parts(piece, mul(k, width), mul(add(k, 1), width));
-}
-
-function _circle_bounds(circles) {
-let bounds;
-bounds = function (chords, parts, j) {
-let each, far, found, from_a, from_b, near, outside, shift, x, y;
-[x, y] = iter([item(circles.x, j), item(circles.y, j)]);
-near = chord_to_point(chords.ax, chords.ay, chords.bx, chords.by, x, y);
-[from_a, from_b] = iter([np.hypot(sub(chords.ax, x), sub(chords.ay, y)), np.hypot(sub(chords.bx, x), sub(chords.by, y))]);
-far = Nearest(neg(np.maximum(from_a, from_b)), np.where(gt(from_a, from_b), 0.0, 1.0));
-outside = gt(item(circles.sign, j), 0.0);
-each = Nearest(np.where(outside, near.distance, far.distance), np.where(outside, near.share, far.share));
-found = _around(each, chords, parts);
-shift = mul(item(circles.sign, j), item(circles.radius, j));
-return Bounds(sub(found.lower, shift), sub(found.upper, shift), found.at);
-};
-return bounds;
-}
-
-function first_entry(pieces, zone) {
-let entry, searched, simple, until_s;
-simple = bit_and(bit_or(eq(pieces.u, 0.0), pieces.bent), eq(pieces.widen, 0.0));
-entry = _first_touch(pieces, simple, zone);
-until_s = (lt(entry.distance, np.inf) ? add(item(pieces.start_s, entry.piece), entry.time_s) : np.inf);
-searched = item(bit_and(invert(simple), lt(pieces.start_s, until_s)).nonzero(), 0);
-return (truth(searched.size) ? _searched_entry(pieces, searched, zone, entry, until_s) : entry);
-}
-
-function least_distance(pieces, zone) {
-let _, best, found, i, parts, signed;
-[signed, parts] = iter([Signed(zone), first_parts(pieces, np.arange(pieces.x.size))]);
-best = PlaceInPath(np.inf, 0, 0.0);
-for (_ of iter(range(MOST_LEVELS))) {
-found = signed.bounds(Chords.of(pieces, parts), parts);
-i = int(found.upper.argmin());
-if (lt(item(found.upper, i), best.distance)) {
-best = PlaceInPath(float(item(found.upper, i)), int(item(parts.piece, i)), float(item(found.at, i)));
-}
-parts = parts.take(item(lt(found.lower, sub(best.distance, RESOLUTION_M)).nonzero(), 0));
+before = lt(add(item(pieces.start_s, parts.piece), parts.a), entry_s);
+keep = bit_and(bit_and(before, le(found.lower, TOUCH_M)), gt(sub(parts.b, parts.a), step_s));
+parts = parts.take(item(keep.nonzero(), 0));
 if (!truth(parts.piece.size)) {
 break;
 }
 parts = parts.split();
 }
-return best;
+return entry;
 }
 
-function time_in_hold(maneuver, flown_rad) {
-let begin, circle, held, join, side, uav, wx, wy;
-[circle, join, uav, side] = iter([maneuver.orbit, maneuver.join, maneuver.aircraft, sign_of(maneuver.turn)]);
-[wx, wy] = iter(relative_wind(circle, uav, maneuver.wind));
-begin = kernel.phase_of(sub(join.east_m, circle.east_m), sub(join.north_m, circle.north_m), side, wx, wy);
-held = kernel.time_held(add(begin, flown_rad), flown_rad, radius_in_turns(circle, uav), wx, wy);
-return div(mul(held, uav.turn_radius_m), uav.airspeed_m_s);
+function signed_bounds(zone, chords, parts) {
+let at_a, at_b, bounds, lower, upper;
+bounds = (truth(isinstance(zone, CircleZone)) ? _from_circle(zone, chords) : _from_polygon(zone, chords));
+[lower, at_a, at_b] = iter(bounds);
+upper = sub(np.minimum(at_a, at_b), chords.widen);
+return Bounds(sub(sub(lower, chords.off), chords.widen), upper, np.where(lt(at_b, at_a), parts.b, parts.a));
 }
 
-const Breach = struct(class extends Tuple {
-constructor(zone, clearance_m, east_m, north_m, time_s, holding) {
-super();
-this.zone = zone;
-this.clearance_m = clearance_m;
-this.east_m = east_m;
-this.north_m = north_m;
-this.time_s = time_s;
-this.holding = holding;
-
-}
-get enters() {
-const self = this;
-return le(self.clearance_m, TOUCH_M);
-}
-}, ["zone", "clearance_m", "east_m", "north_m", "time_s", "holding"], 'Breach');
-
-function _clear_sentence(found, frame) {
-let near, where;
-near = found.closest;
-where = `at ${str(fence_check__place(near, frame, found.decimals))}`;
-return `The plan and its hold stay clear of the fence, ${format(near.clearance_m, `.${String(found.decimals)}f`)} m from ${str(_named(near.zone))} at least, ${str(where)}.`;
-}
-
-function _breach_sentence(found, frame) {
-let d, depth, does, first, more, near, others, where;
-[first, ...others] = iter(found.breaches);
-d = found.decimals;
-where = `${str((truth(first.holding) ? "on the circle, " : ""))}in ${format(first.time_s, `.${String(d)}f`)} s, at ${str(fence_check__place(first, frame, d))}`;
-more = (truth(others) ? `; ${str(_and_others(others))}` : "");
-if (!truth(first.enters)) {
-near = `comes within ${format(first.clearance_m, `.${String(d)}f`)} m of ${str(_named(first.zone))} ${str(where)}`;
-return `The plan ${str(near)}, less than the margin of ${format(found.margin_m, `g`)} m${str(more)}.`;
-}
-does = (truth(first.zone.inclusion) ? "leaves" : "enters");
-depth = (lt(first.clearance_m, neg(TOUCH_M)) ? `by up to ${format(max(0.0, neg(first.clearance_m)), `.${String(d)}f`)} m` : "where it touches it");
-return `The plan ${str(does)} ${str(_named(first.zone))} ${str(where)}, ${str(depth)}${str(more)}.`;
-}
-
-function _values(breach, frame) {
-let place, values;
-values = new Map([["zone", breach.zone.name], ["inclusion", breach.zone.inclusion], ["clearance_m", breach.clearance_m], ["enters", breach.enters], ["time_s", breach.time_s], ["holding", breach.holding], ["east_m", breach.east_m], ["north_m", breach.north_m]]);
-if ((frame == null)) {
-return values;
-}
+function fence__place(breach, frame, decimals) {
+let d, east, north, place;
+if ((frame != null)) {
 place = frame.place(Pose(breach.east_m, breach.north_m, 0.0));
-return bit_or(values, new Map([["latitude_deg", place.latitude_deg], ["longitude_deg", place.longitude_deg]]));
+return degrees_of(place.latitude_deg, place.longitude_deg);
+}
+d = sub(decimals, 1);
+[east, north] = iter([(ge(breach.east_m, 0.0) ? "east" : "west"), (ge(breach.north_m, 0.0) ? "north" : "south")]);
+return `${format(abs(breach.east_m), `.${String(d)}f`)} m ${str(east)}, ${format(abs(breach.north_m), `.${String(d)}f`)} m ${str(north)}`;
+}
+
+function _named(zone) {
+return `the ${str((truth(zone.inclusion) ? "inclusion zone" : "zone"))} ${repr(zone.name)}`;
+}
+
+function _and_others(others) {
+let names;
+names = join_(" and ", list(iter(others)).map((breach) => repr(breach.zone.name)));
+return `later also ${str(names)}`;
 }
 
 function segment(start, start_s, letter, length_m, aircraft, wind, radius_m) {
@@ -5348,216 +5541,151 @@ return Maneuver(problem.pose, problem.orbit, problem.aircraft, turn, tuple(segme
 }
 }, []);
 
-function arc_to_edge(arcs, edges) {
-return _least(...iter(arc_edge_points(arcs, edges)));
+function _least(distances, shares) {
+let best, every;
+every = np.stack(distances);
+best = every.argmin({ axis: 0 });
+return Nearest(every.min({ axis: 0 }), np.choose(best, shares));
 }
 
-function arcs_of(pieces) {
-let angle, nx, ny, p;
-p = pieces.take([slice(null), null]);
-[nx, ny] = iter([mul(p.u, p.s), mul(neg(p.u), p.c)]);
-angle = div(mul(p.duration_s, p.speed), p.radius);
-return Arcs(sub(p.x, mul(p.radius, nx)), sub(p.y, mul(p.radius, ny)), p.radius, nx, ny, p.u, angle);
+function arc_edge_points(arcs, edges) {
+let across, along, directions, distance, ends, ex, ey, h, length, qx, qy, r, shape, share, vx, vy;
+[ex, ey] = iter([sub(edges.bx, edges.ax), sub(edges.by, edges.ay)]);
+length = np.hypot(ex, ey);
+[ex, ey] = iter([div(ex, length), div(ey, length)]);
+[vx, vy] = iter([sub(edges.ax, arcs.x), sub(edges.ay, arcs.y)]);
+h = sub(mul(ex, vy), mul(ey, vx));
+across = np.clip(div(h, arcs.radius), -1.0, 1.0);
+along = np.sqrt(mul(sub(1.0, across), add(1.0, across)));
+r = np.maximum(np.hypot(vx, vy), np.finfo(float).tiny);
+shape = np.broadcast_shapes(arcs.x.shape, edges.ax.shape);
+ends = list(iter([0.0, 1.0])).map((share) => arcs.direction(share));
+directions = [...iter(ends), [div(vx, r), div(vy, r)], [sub(mul(ex, along), mul(ey, across)), add(mul(ey, along), mul(ex, across))], [sub(mul(neg(ex), along), mul(ey, across)), add(mul(neg(ey), along), mul(ex, across))]];
+[qx, qy] = iter(list(iter(zip(...iter(directions)))).map((values) => np.stack(list(iter(values)).map((value) => np.broadcast_to(value, shape)))));
+share = arcs.share(qx, qy);
+const unpacked1 = iter([0.0, 1.0]);
+set_item(share, 0, unpacked1[0]);
+set_item(share, 1, unpacked1[1]);
+distance = np.where(le(share, 1.0), to_edge(add(arcs.x, mul(arcs.radius, qx)), add(arcs.y, mul(arcs.radius, qy)), edges), np.inf);
+return [distance, share];
 }
 
-function _note(closest, distance, share, pieces, bent, zone) {
-let own, piece;
-piece = np.broadcast_to(item(bent, [slice(null, null), null]), distance.shape);
-own = np.broadcast_to(zone, distance.shape);
-closest.note(own.ravel(), distance.ravel(), piece.ravel(), mul(share, item(pieces.duration_s, piece)).ravel());
-}
-
-const Chords = struct(class extends Tuple {
-constructor(ax, ay, bx, by, off, widen) {
+const Arcs = struct(class extends Tuple {
+constructor(x, y, radius, nx, ny, u, angle) {
 super();
-this.ax = ax;
-this.ay = ay;
-this.bx = bx;
-this.by = by;
-this.off = off;
-this.widen = widen;
+this.x = x;
+this.y = y;
+this.radius = radius;
+this.nx = nx;
+this.ny = ny;
+this.u = u;
+this.angle = angle;
 
 }
-static of(cls, pieces, parts) {
-let off, own;
-own = pieces.take(parts.piece);
-off = div(mul(own.acceleration, pow(sub(parts.b, parts.a), 2)), 8.0);
-return cls(...iter(own.position(parts.a)), ...iter(own.position(parts.b)), off, own.widen);
-}
-columns() {
+share(qx, qy) {
+let turned;
 const self = this;
-return Chords(...iter(list(iter(self)).map((column) => item(column, [slice(null, null), null]))));
+turned = np.arctan2(mul(self.u, sub(mul(self.nx, qy), mul(self.ny, qx))), add(mul(self.nx, qx), mul(self.ny, qy)));
+return div(np.where(lt(turned, 0.0), add(turned, mul(2.0, np.pi)), turned), np.maximum(self.angle, np.finfo(float).tiny));
 }
-}, ["ax", "ay", "bx", "by", "off", "widen"], 'Chords');
-
-function _undecided(closest, lower, zone, margin_m, unsigned) {
-let known, matters, touches;
-known = item(closest.distance, zone);
-touches = (truth(unsigned) ? le(known, TOUCH_M) : np.zeros(known.shape, bool));
-matters = bit_or(le(lower, add(margin_m, TOUCH_M)), lt(lower, sub(closest.distance.min(), RESOLUTION_M)));
-return item(bit_and(bit_and(lt(lower, sub(known, RESOLUTION_M)), invert(touches)), matters).nonzero(), 0);
+direction(share) {
+let c, s;
+const self = this;
+[c, s] = iter([np.cos(mul(share, self.angle)), mul(self.u, np.sin(mul(share, self.angle)))]);
+return [sub(mul(self.nx, c), mul(self.ny, s)), add(mul(self.ny, c), mul(self.nx, s))];
 }
+}, ["x", "y", "radius", "nx", "ny", "u", "angle"], 'Arcs');
 
-function chord_to_edge(ax, ay, bx, by, edges) {
-let distances, shares;
-[distances, shares] = iter(chord_edge_points(ax, ay, bx, by, edges));
-return ChordToEdge(item(distances, 0), item(distances, 1), _least(distances, shares));
-}
-
-function _around(found, chords, parts) {
-let at, distance;
-at = add(parts.a, mul(found.share, sub(parts.b, parts.a)));
-distance = sub(found.distance, chords.widen);
-return Bounds(sub(distance, chords.off), add(distance, chords.off), at);
+function chord_edge_points(ax, ay, bx, by, edges) {
+let c, crosses, crossing, d, from_a, from_b, zero;
+c = chord_to_point(ax, ay, bx, by, edges.ax, edges.ay);
+d = chord_to_point(ax, ay, bx, by, edges.bx, edges.by);
+[from_a, from_b] = iter([to_edge(ax, ay, edges), to_edge(bx, by, edges)]);
+crossing = crossing_share(ax, ay, bx, by, edges);
+crosses = np.where(ge(crossing, 0.0), 0.0, np.inf);
+zero = np.zeros_like(from_a);
+return [[from_a, from_b, c.distance, d.distance, crosses], [zero, add(zero, 1.0), c.share, d.share, crossing]];
 }
 
-function arc_to_point(arcs, x, y) {
-let at_ends, away, ends, far, largest, least, near, qx, qy, r, safe, towards, vx, vy, zero;
+const ChordToEdge = struct(class extends Tuple {
+constructor(from_a, from_b, nearest) {
+super();
+this.from_a = from_a;
+this.from_b = from_b;
+this.nearest = nearest;
+
+}
+}, ["from_a", "from_b", "nearest"], 'ChordToEdge');
+
+const Extremes = struct(class extends Tuple {
+constructor(least, largest) {
+super();
+this.least = least;
+this.largest = largest;
+
+}
+}, ["least", "largest"], 'Extremes');
+
+function foot_share(x, y, ax, ay, bx, by) {
+let along, ex, ey, length_2;
+[ex, ey] = iter([sub(bx, ax), sub(by, ay)]);
+length_2 = add(mul(ex, ex), mul(ey, ey));
+along = add(mul(sub(x, ax), ex), mul(sub(y, ay), ey));
+return np.clip(np.divide(along, length_2, { out: np.zeros(np.broadcast(along, length_2).shape), where: gt(length_2, 0.0) }), 0.0, 1.0);
+}
+
+function first_within(distances, shares, within_m) {
+return np.where(le(np.stack(distances), within_m), np.stack(shares), np.inf).min({ axis: 0 });
+}
+
+function arc_circle_points(arcs, x, y, radius) {
+let apart, c, directions, from_centre, qx, qy, s, share, towards_x, towards_y, vx, vy;
 [vx, vy] = iter([sub(x, arcs.x), sub(y, arcs.y)]);
-r = np.hypot(vx, vy);
-safe = np.maximum(r, np.finfo(float).tiny);
-[qx, qy] = iter([div(vx, safe), div(vy, safe)]);
-at_ends = list(iter([0.0, 1.0])).map((share) => arcs.direction(share));
-ends = list(iter(at_ends)).map((one) => iter(one)).map(([ox, oy]) => np.hypot(sub(mul(arcs.radius, ox), vx), sub(mul(arcs.radius, oy), vy)));
-[towards, away] = iter([arcs.share(qx, qy), arcs.share(neg(qx), neg(qy))]);
-[near, far] = iter([np.where(le(towards, 1.0), abs(sub(r, arcs.radius)), np.inf), np.where(le(away, 1.0), add(r, arcs.radius), neg(np.inf))]);
-zero = np.zeros_like(r);
-least = _least([...iter(ends), near], [zero, add(zero, 1.0), towards]);
-largest = _least([...iter(list(iter(ends)).map((end) => neg(end))), neg(far)], [zero, add(zero, 1.0), away]);
-return Extremes(least, Nearest(neg(largest.distance), largest.share));
+apart = np.maximum(np.hypot(vx, vy), NO_LENGTH_M);
+[towards_x, towards_y] = iter([div(vx, apart), div(vy, apart)]);
+c = np.clip(div(sub(add(pow(apart, 2), pow(arcs.radius, 2)), pow(radius, 2)), mul(mul(2.0, apart), arcs.radius)), -1.0, 1.0);
+s = np.sqrt(mul(sub(1.0, c), add(1.0, c)));
+directions = [...iter(list(iter([0.0, 1.0])).map((share) => arcs.direction(share))), [towards_x, towards_y], [neg(towards_x), neg(towards_y)], [sub(mul(towards_x, c), mul(towards_y, s)), add(mul(towards_y, c), mul(towards_x, s))], [add(mul(towards_x, c), mul(towards_y, s)), sub(mul(towards_y, c), mul(towards_x, s))]];
+[qx, qy] = iter(list(iter(zip(...iter(directions)))).map((values) => np.stack(values)));
+share = arcs.share(qx, qy);
+const unpacked1 = iter([0.0, 1.0]);
+set_item(share, 0, unpacked1[0]);
+set_item(share, 1, unpacked1[1]);
+from_centre = np.hypot(sub(mul(arcs.radius, qx), vx), sub(mul(arcs.radius, qy), vy));
+return [np.where(le(share, 1.0), abs(sub(from_centre, radius)), np.inf), share];
 }
 
-const Parts = struct(class extends Tuple {
-constructor(piece, a, b) {
-super();
-this.piece = piece;
-this.a = a;
-this.b = b;
-
-}
-split() {
-let shares, times;
-const self = this;
-shares = div(np.arange(add(SPLIT, 1)), SPLIT);
-times = add(item(self.a, [slice(null, null), null]), mul(shares, item(sub(self.b, self.a), [slice(null, null), null])));
-return Parts(np.repeat(self.piece, SPLIT), item(times, [slice(null, null), slice(null, -1)]).ravel(), item(times, [slice(null, null), slice(1, null)]).ravel());
-}
-take(i) {
-const self = this;
-return Parts(item(self.piece, i), item(self.a, i), item(self.b, i));
-}
-}, ["piece", "a", "b"], 'Parts');
-
-function chord_to_point(ax, ay, bx, by, x, y) {
-let share;
-share = foot_share(x, y, ax, ay, bx, by);
-return Nearest(np.hypot(sub(add(ax, mul(share, sub(bx, ax))), x), sub(add(ay, mul(share, sub(by, ay))), y)), share);
+function _disc(zone) {
+return [zone.east_m, zone.north_m, zone.radius_m];
 }
 
-const Nearest = struct(class extends Tuple {
-constructor(distance, share) {
-super();
-this.distance = distance;
-this.share = share;
-
-}
-}, ["distance", "share"], 'Nearest');
-
-const Bounds = struct(class extends Tuple {
-constructor(lower, upper, at) {
-super();
-this.lower = lower;
-this.upper = upper;
-this.at = at;
-
-}
-}, ["lower", "upper", "at"], 'Bounds');
-
-function _first_touch(pieces, simple, zone) {
-let arcs, ax, ay, bent, bx, by, edges, i, lines, share, straight, times, touched;
-[share, edges] = iter([np.full(pieces.x.size, np.inf), edges_of((truth(isinstance(zone, PolygonZone)) ? [zone] : []))]);
-[bent, straight] = iter(list(iter([pieces.bent, eq(pieces.u, 0.0)])).map((kind) => item(bit_and(simple, kind).nonzero(), 0)));
-if (truth(bent.size)) {
-arcs = arcs_of(pieces.take(bent));
-if (truth(isinstance(zone, PolygonZone))) {
-set_item(share, bent, first_within(...iter(arc_edge_points(arcs, edges)), TOUCH_M).min({ axis: -1 }));
-} else {
-set_item(share, bent, first_within(...iter(arc_circle_points(arcs, ...iter(_disc(zone)))), TOUCH_M).min({ axis: -1 }));
-}
-}
-if (truth(straight.size)) {
-lines = pieces.take(straight);
-[[ax, ay], [bx, by]] = iter(list(iter([0.0, lines.duration_s])).map((t) => list(iter(lines.position(t))).map((v) => item(v, [slice(null, null), null]))));
-if (truth(isinstance(zone, PolygonZone))) {
-set_item(share, straight, first_within(...iter(chord_edge_points(ax, ay, bx, by, edges)), TOUCH_M).min({ axis: -1 }));
-} else {
-set_item(share, straight, first_within(...iter(chord_circle_points(ax, ay, bx, by, ...iter(_disc(zone)))), TOUCH_M).min({ axis: -1 }));
-}
-}
-touched = item(lt(share, np.inf).nonzero(), 0);
-if (!truth(touched.size)) {
-return PlaceInPath(np.inf, 0, 0.0);
-}
-times = mul(item(share, touched), item(pieces.duration_s, touched));
-i = int(add(item(pieces.start_s, touched), times).argmin());
-return PlaceInPath(0.0, int(item(touched, i)), float(item(times, i)));
+function chord_circle_points(ax, ay, bx, by, x, y, radius) {
+let across, along, from_centre, half, length, near, share, zero;
+near = chord_to_point(ax, ay, bx, by, x, y);
+length = np.maximum(np.hypot(sub(bx, ax), sub(by, ay)), NO_LENGTH_M);
+along = div(add(mul(sub(x, ax), sub(bx, ax)), mul(sub(y, ay), sub(by, ay))), length);
+across = sub(pow(np.hypot(sub(x, ax), sub(y, ay)), 2), pow(along, 2));
+half = np.sqrt(np.maximum(sub(pow(radius, 2), across), 0.0));
+zero = np.zeros_like(near.share);
+share = np.stack([zero, add(zero, 1.0), near.share, div(sub(along, half), length), div(add(along, half), length)]);
+from_centre = np.hypot(sub(add(ax, mul(share, sub(bx, ax))), x), sub(add(ay, mul(share, sub(by, ay))), y));
+return [np.where(bit_and(ge(share, 0.0), le(share, 1.0)), abs(sub(from_centre, radius)), np.inf), share];
 }
 
-function _searched_entry(pieces, searched, zone, known, known_s) {
-let _, before, entry, entry_s, found, i, keep, parts, signed, step_s, times;
-[signed, parts] = iter([Signed(zone), first_parts(pieces, searched)]);
-step_s = div(TOUCH_M, float(add(pieces.speed, np.hypot(pieces.wx, pieces.wy)).max()));
-[entry, entry_s] = iter([known, known_s]);
-for (_ of iter(range(MOST_LEVELS))) {
-found = signed.bounds(Chords.of(pieces, parts), parts);
-times = np.where(le(found.upper, TOUCH_M), add(item(pieces.start_s, parts.piece), found.at), np.inf);
-i = int(times.argmin());
-if (lt(item(times, i), entry_s)) {
-[entry, entry_s] = iter([PlaceInPath(float(item(found.upper, i)), int(item(parts.piece, i)), float(item(found.at, i))), float(item(times, i))]);
-}
-before = lt(add(item(pieces.start_s, parts.piece), parts.a), entry_s);
-keep = bit_and(bit_and(before, le(found.lower, TOUCH_M)), gt(sub(parts.b, parts.a), step_s));
-parts = parts.take(item(keep.nonzero(), 0));
-if (!truth(parts.piece.size)) {
-break;
-}
-parts = parts.split();
-}
-return entry;
-}
-
-const Signed = struct(class extends Values {
-constructor(zone) {
-super();
-const self = this;
-[self._zone, self._edges] = iter([zone, edges_of((truth(isinstance(zone, PolygonZone)) ? [zone] : []))]);
-}
-bounds(chords, parts) {
-let at_a, at_b, is_circle, lower, upper;
-const self = this;
-is_circle = isinstance(self._zone, CircleZone);
-[lower, at_a, at_b] = iter((truth(is_circle) ? self._circle_bounds(chords) : self._polygon_bounds(chords)));
-upper = sub(np.minimum(at_a, at_b), chords.widen);
-return Bounds(sub(sub(lower, chords.off), chords.widen), upper, np.where(lt(at_b, at_a), parts.b, parts.a));
-}
-_circle_bounds(chords) {
-let at_a, at_b, near, zone;
-const self = this;
-zone = self._zone;
-
-[at_a, at_b] = iter([self.at(chords.ax, chords.ay), self.at(chords.bx, chords.by)]);
+function _from_circle(zone, chords) {
+let at_a, at_b, near;
+[at_a, at_b] = iter([signed_distance(zone, chords.ax, chords.ay), signed_distance(zone, chords.bx, chords.by)]);
 if (truth(zone.inclusion)) {
 return [np.minimum(at_a, at_b), at_a, at_b];
 }
 near = chord_to_point(chords.ax, chords.ay, chords.bx, chords.by, zone.east_m, zone.north_m);
 return [sub(near.distance, zone.radius_m), at_a, at_b];
 }
-_polygon_bounds(chords) {
-let c, deepest, found, lower, near, side_a, side_b, sides, zone;
-const self = this;
-[zone, c] = iter([self._zone, chords.columns()]);
 
-found = chord_to_edge(c.ax, c.ay, c.bx, c.by, self._edges);
+function _from_polygon(zone, chords) {
+let c, deepest, found, lower, near, side_a, side_b, sides;
+c = chords.columns();
+found = chord_to_edge(c.ax, c.ay, c.bx, c.by, zone.edges);
 sides = polygon_sign(zone, np.append(chords.ax, chords.bx), np.append(chords.ay, chords.by));
 [side_a, side_b] = iter(np.split(sides, 2));
 near = found.nearest.distance.min({ axis: 1 });
@@ -5565,37 +5693,11 @@ deepest = np.maximum(found.from_a, found.from_b).min({ axis: 1 });
 lower = np.where(bit_and(gt(side_a, 0.0), gt(near, chords.off)), near, neg(deepest));
 return [lower, mul(side_a, found.from_a.min({ axis: 1 })), mul(side_b, found.from_b.min({ axis: 1 }))];
 }
-at(x, y) {
-let outside, zone;
-const self = this;
-zone = self._zone;
-if (truth(isinstance(zone, CircleZone))) {
-outside = sub(np.hypot(sub(x, zone.east_m), sub(y, zone.north_m)), zone.radius_m);
-return (truth(zone.inclusion) ? neg(outside) : outside);
-}
-return mul(to_edge(item(x, [slice(null, null), null]), item(y, [slice(null, null), null]), self._edges).min({ axis: 1 }), polygon_sign(zone, x, y));
-}
-}, []);
 
-function fence_check__place(breach, frame, decimals) {
-let d, east, north, place;
-if ((frame != null)) {
-place = frame.place(Pose(breach.east_m, breach.north_m, 0.0));
-return degrees_of(place.latitude_deg, place.longitude_deg);
-}
-d = sub(decimals, 1);
-[east, north] = iter([(ge(breach.east_m, 0.0) ? "east" : "west"), (ge(breach.north_m, 0.0) ? "north" : "south")]);
-return `${format(abs(breach.east_m), `.${String(d)}f`)} m ${str(east)}, ${format(abs(breach.north_m), `.${String(d)}f`)} m ${str(north)}`;
-}
-
-function _named(zone) {
-return `the ${str((truth(zone.inclusion) ? "inclusion zone" : "zone"))} ${repr(zone.name)}`;
-}
-
-function _and_others(others) {
-let names;
-names = join_(" and ", list(iter(others)).map((breach) => repr(breach.zone.name)));
-return `later also ${str(names)}`;
+function degrees_of(latitude_deg, longitude_deg) {
+let east, north;
+[north, east] = iter([(ge(latitude_deg, 0.0) ? "N" : "S"), (ge(longitude_deg, 0.0) ? "E" : "W")]);
+return `${format(abs(latitude_deg), `.6f`)} ${str(north)} ${format(abs(longitude_deg), `.6f`)} ${str(east)}`;
 }
 
 const Segment = struct(class extends Values {
@@ -5973,16 +6075,10 @@ return Contacts(indices, shares, ways, ...iter(places), add(normal, mul(ways, mu
 }
 
 function clear_points(fence, east_m, north_m, margin_m) {
-let clear, distance, outside, zone;
+let clear, zone;
 clear = np.ones(east_m.size, bool);
 for (zone of iter(fence.zones)) {
-if (truth(isinstance(zone, CircleZone))) {
-outside = sub(np.hypot(sub(east_m, zone.east_m), sub(north_m, zone.north_m)), zone.radius_m);
-clear = bit_and(clear, gt((truth(zone.inclusion) ? neg(outside) : outside), margin_m));
-} else {
-distance = to_edge(item(east_m, [slice(null, null), null]), item(north_m, [slice(null, null), null]), edges_of([zone])).min({ axis: 1 });
-clear = bit_and(clear, gt(mul(distance, polygon_sign(zone, east_m, north_m)), margin_m));
-}
+clear = bit_and(clear, gt(signed_distance(zone, east_m, north_m), margin_m));
 }
 return clear;
 }
@@ -6124,135 +6220,24 @@ append_(merged, piece);
 return merged;
 }
 
-function _least(distances, shares) {
-let best, every;
-every = np.stack(distances);
-best = every.argmin({ axis: 0 });
-return Nearest(every.min({ axis: 0 }), np.choose(best, shares));
+function crossing_share(ax, ay, bx, by, edges) {
+let across, along, cross, crosses, dx, dy, ex, ey, px, py, safe;
+[dx, dy, ex, ey] = iter([sub(bx, ax), sub(by, ay), sub(edges.bx, edges.ax), sub(edges.by, edges.ay)]);
+[px, py] = iter([sub(edges.ax, ax), sub(edges.ay, ay)]);
+cross = sub(mul(dx, ey), mul(dy, ex));
+safe = np.where(eq(cross, 0.0), 1.0, cross);
+[along, across] = iter([div(sub(mul(px, ey), mul(py, ex)), safe), div(sub(mul(px, dy), mul(py, dx)), safe)]);
+crosses = bit_and(bit_and(bit_and(bit_and(ne(cross, 0.0), ge(along, 0.0)), le(along, 1.0)), ge(across, 0.0)), le(across, 1.0));
+return np.where(crosses, along, -1.0);
 }
 
-function arc_edge_points(arcs, edges) {
-let across, along, directions, distance, ends, ex, ey, h, length, qx, qy, r, shape, share, vx, vy;
-[ex, ey] = iter([sub(edges.bx, edges.ax), sub(edges.by, edges.ay)]);
-length = np.hypot(ex, ey);
-[ex, ey] = iter([div(ex, length), div(ey, length)]);
-[vx, vy] = iter([sub(edges.ax, arcs.x), sub(edges.ay, arcs.y)]);
-h = sub(mul(ex, vy), mul(ey, vx));
-across = np.clip(div(h, arcs.radius), -1.0, 1.0);
-along = np.sqrt(mul(sub(1.0, across), add(1.0, across)));
-r = np.maximum(np.hypot(vx, vy), np.finfo(float).tiny);
-shape = np.broadcast_shapes(arcs.x.shape, edges.ax.shape);
-ends = list(iter([0.0, 1.0])).map((share) => arcs.direction(share));
-directions = [...iter(ends), [div(vx, r), div(vy, r)], [sub(mul(ex, along), mul(ey, across)), add(mul(ey, along), mul(ex, across))], [sub(mul(neg(ex), along), mul(ey, across)), add(mul(neg(ey), along), mul(ex, across))]];
-[qx, qy] = iter(list(iter(zip(...iter(directions)))).map((values) => np.stack(list(iter(values)).map((value) => np.broadcast_to(value, shape)))));
-share = arcs.share(qx, qy);
-const unpacked1 = iter([0.0, 1.0]);
-set_item(share, 0, unpacked1[0]);
-set_item(share, 1, unpacked1[1]);
-distance = np.where(le(share, 1.0), to_edge(add(arcs.x, mul(arcs.radius, qx)), add(arcs.y, mul(arcs.radius, qy)), edges), np.inf);
-return [distance, share];
+function signed_distance(zone, east_m, north_m) {
+let outside;
+if (truth(isinstance(zone, CircleZone))) {
+outside = sub(np.hypot(sub(east_m, zone.east_m), sub(north_m, zone.north_m)), zone.radius_m);
+return (truth(zone.inclusion) ? neg(outside) : outside);
 }
-
-const Arcs = struct(class extends Tuple {
-constructor(x, y, radius, nx, ny, u, angle) {
-super();
-this.x = x;
-this.y = y;
-this.radius = radius;
-this.nx = nx;
-this.ny = ny;
-this.u = u;
-this.angle = angle;
-
-}
-share(qx, qy) {
-let turned;
-const self = this;
-turned = np.arctan2(mul(self.u, sub(mul(self.nx, qy), mul(self.ny, qx))), add(mul(self.nx, qx), mul(self.ny, qy)));
-return div(np.where(lt(turned, 0.0), add(turned, mul(2.0, np.pi)), turned), np.maximum(self.angle, np.finfo(float).tiny));
-}
-direction(share) {
-let c, s;
-const self = this;
-[c, s] = iter([np.cos(mul(share, self.angle)), mul(self.u, np.sin(mul(share, self.angle)))]);
-return [sub(mul(self.nx, c), mul(self.ny, s)), add(mul(self.ny, c), mul(self.nx, s))];
-}
-}, ["x", "y", "radius", "nx", "ny", "u", "angle"], 'Arcs');
-
-function chord_edge_points(ax, ay, bx, by, edges) {
-let c, crosses, crossing, d, from_a, from_b, zero;
-c = chord_to_point(ax, ay, bx, by, edges.ax, edges.ay);
-d = chord_to_point(ax, ay, bx, by, edges.bx, edges.by);
-[from_a, from_b] = iter([to_edge(ax, ay, edges), to_edge(bx, by, edges)]);
-crossing = crossing_share(ax, ay, bx, by, edges);
-crosses = np.where(ge(crossing, 0.0), 0.0, np.inf);
-zero = np.zeros_like(from_a);
-return [[from_a, from_b, c.distance, d.distance, crosses], [zero, add(zero, 1.0), c.share, d.share, crossing]];
-}
-
-const ChordToEdge = struct(class extends Tuple {
-constructor(from_a, from_b, nearest) {
-super();
-this.from_a = from_a;
-this.from_b = from_b;
-this.nearest = nearest;
-
-}
-}, ["from_a", "from_b", "nearest"], 'ChordToEdge');
-
-const Extremes = struct(class extends Tuple {
-constructor(least, largest) {
-super();
-this.least = least;
-this.largest = largest;
-
-}
-}, ["least", "largest"], 'Extremes');
-
-function foot_share(x, y, ax, ay, bx, by) {
-let along, ex, ey, length_2;
-[ex, ey] = iter([sub(bx, ax), sub(by, ay)]);
-length_2 = add(mul(ex, ex), mul(ey, ey));
-along = add(mul(sub(x, ax), ex), mul(sub(y, ay), ey));
-return np.clip(np.divide(along, length_2, { out: np.zeros(np.broadcast(along, length_2).shape), where: gt(length_2, 0.0) }), 0.0, 1.0);
-}
-
-function first_within(distances, shares, within_m) {
-return np.where(le(np.stack(distances), within_m), np.stack(shares), np.inf).min({ axis: 0 });
-}
-
-function arc_circle_points(arcs, x, y, radius) {
-let apart, c, directions, from_centre, qx, qy, s, share, towards_x, towards_y, vx, vy;
-[vx, vy] = iter([sub(x, arcs.x), sub(y, arcs.y)]);
-apart = np.maximum(np.hypot(vx, vy), NO_LENGTH_M);
-[towards_x, towards_y] = iter([div(vx, apart), div(vy, apart)]);
-c = np.clip(div(sub(add(pow(apart, 2), pow(arcs.radius, 2)), pow(radius, 2)), mul(mul(2.0, apart), arcs.radius)), -1.0, 1.0);
-s = np.sqrt(mul(sub(1.0, c), add(1.0, c)));
-directions = [...iter(list(iter([0.0, 1.0])).map((share) => arcs.direction(share))), [towards_x, towards_y], [neg(towards_x), neg(towards_y)], [sub(mul(towards_x, c), mul(towards_y, s)), add(mul(towards_y, c), mul(towards_x, s))], [add(mul(towards_x, c), mul(towards_y, s)), sub(mul(towards_y, c), mul(towards_x, s))]];
-[qx, qy] = iter(list(iter(zip(...iter(directions)))).map((values) => np.stack(values)));
-share = arcs.share(qx, qy);
-const unpacked1 = iter([0.0, 1.0]);
-set_item(share, 0, unpacked1[0]);
-set_item(share, 1, unpacked1[1]);
-from_centre = np.hypot(sub(mul(arcs.radius, qx), vx), sub(mul(arcs.radius, qy), vy));
-return [np.where(le(share, 1.0), abs(sub(from_centre, radius)), np.inf), share];
-}
-
-function _disc(zone) {
-return [zone.east_m, zone.north_m, zone.radius_m];
-}
-
-function chord_circle_points(ax, ay, bx, by, x, y, radius) {
-let across, along, from_centre, half, length, near, share, zero;
-near = chord_to_point(ax, ay, bx, by, x, y);
-length = np.maximum(np.hypot(sub(bx, ax), sub(by, ay)), NO_LENGTH_M);
-along = div(add(mul(sub(x, ax), sub(bx, ax)), mul(sub(y, ay), sub(by, ay))), length);
-across = sub(pow(np.hypot(sub(x, ax), sub(y, ay)), 2), pow(along, 2));
-half = np.sqrt(np.maximum(sub(pow(radius, 2), across), 0.0));
-zero = np.zeros_like(near.share);
-share = np.stack([zero, add(zero, 1.0), near.share, div(sub(along, half), length), div(add(along, half), length)]);
-from_centre = np.hypot(sub(add(ax, mul(share, sub(bx, ax))), x), sub(add(ay, mul(share, sub(by, ay))), y));
-return [np.where(bit_and(ge(share, 0.0), le(share, 1.0)), abs(sub(from_centre, radius)), np.inf), share];
+return mul(to_edge(item(east_m, [slice(null, null), null]), item(north_m, [slice(null, null), null]), zone.edges).min({ axis: 1 }), polygon_sign(zone, east_m, north_m));
 }
 
 function polygon_sign(zone, east_m, north_m) {
@@ -6260,12 +6245,6 @@ let inside;
 
 inside = shapely.contains_xy(zone._polygon, east_m, north_m);
 return np.where(eq(inside, zone.inclusion), 1.0, -1.0);
-}
-
-function degrees_of(latitude_deg, longitude_deg) {
-let east, north;
-[north, east] = iter([(ge(latitude_deg, 0.0) ? "N" : "S"), (ge(longitude_deg, 0.0) ? "E" : "W")]);
-return `${format(abs(latitude_deg), `.6f`)} ${str(north)} ${format(abs(longitude_deg), `.6f`)} ${str(east)}`;
 }
 
 function _end(start, pieces) {
@@ -6444,17 +6423,14 @@ length = np.stack([mul(turned, curve.radius), zero, zero], { axis: -1 });
 return Words(others, np.full(length.shape, float(way)), length, np.full(length.shape, curve.radius));
 }
 are_clear(start, words) {
-let angle, arcs, bent, c, chord, clear, ends, half, heading, k, length, next_x, next_y, nx, ny, radius, s, straight, u, x, y;
+let angle, arcs, bent, c, clear, ends, heading, k, length, next_x, next_y, nx, ny, radius, s, straight, u, x, y;
 const self = this;
 clear = np.ones(words.to.size, bool);
 [x, y, heading] = iter(list(iter(start)).map((value) => np.full(words.to.size, value)));
 for (k of iter(range(3))) {
 [u, length, radius] = iter([item(words.control, [slice(null, null), k]), item(words.length, [slice(null, null), k]), item(words.radius, [slice(null, null), k])]);
 [c, s, angle] = iter([np.cos(heading), np.sin(heading), div(length, radius)]);
-half = mul(mul(0.5, u), angle);
-chord = np.where(eq(u, 0.0), length, mul(mul(2.0, radius), np.sin(mul(0.5, angle))));
-next_x = add(x, mul(chord, np.cos(add(heading, half))));
-next_y = add(y, mul(chord, np.sin(add(heading, half))));
+[next_x, next_y] = iter(airs__flown(x, y, heading, u, length, radius, 0.0, 0.0));
 bent = item(bit_and(bit_and(clear, ne(u, 0.0)), gt(length, 0.0)).nonzero(), 0);
 if (truth(bent.size)) {
 [nx, ny] = iter([mul(u, s), mul(neg(u), c)]);
@@ -6652,17 +6628,6 @@ this.contacts = contacts;
 }
 }, ["length_m", "paths", "contacts"], 'Chain');
 
-function crossing_share(ax, ay, bx, by, edges) {
-let across, along, cross, crosses, dx, dy, ex, ey, px, py, safe;
-[dx, dy, ex, ey] = iter([sub(bx, ax), sub(by, ay), sub(edges.bx, edges.ax), sub(edges.by, edges.ay)]);
-[px, py] = iter([sub(edges.ax, ax), sub(edges.ay, ay)]);
-cross = sub(mul(dx, ey), mul(dy, ex));
-safe = np.where(eq(cross, 0.0), 1.0, cross);
-[along, across] = iter([div(sub(mul(px, ey), mul(py, ex)), safe), div(sub(mul(px, dy), mul(py, dx)), safe)]);
-crosses = bit_and(bit_and(bit_and(bit_and(ne(cross, 0.0), ge(along, 0.0)), le(along, 1.0)), ge(across, 0.0)), le(across, 1.0));
-return np.where(crosses, along, -1.0);
-}
-
 function clearance(problem) {
 let R, _, distances, ordinate, rm, rp, squares, x, y;
 [x, y, R, _, _] = iter(problem);
@@ -6808,16 +6773,16 @@ yield Curve(x, y, clearance_m, sub(normal, turned), turned, 0.0, 0.0, [1, -1]);
 }
 
 function words_between(x, y, angle, to_x, to_y, to_angle, radius) {
-let across, along, c, control, dx, dy, exists, found, lengths, s, turned, u, word;
+let across, along, c, control, controls, dx, dy, exists, found, lengths, pieces, s, turned, u;
 [c, s] = iter([np.cos(angle), np.sin(angle)]);
 [dx, dy] = iter([div(sub(to_x, x), radius), div(sub(to_y, y), radius)]);
 [along, across, turned] = iter([add(mul(dx, c), mul(dy, s)), sub(mul(dy, c), mul(dx, s)), sub(to_angle, angle)]);
 found = [];
 for (u of iter([1.0, -1.0])) {
-for (word of iter(_left_words(along, mul(u, across), mul(u, turned)))) {
-lengths = np.stack([word.first, word.middle, word.last], { axis: -1 });
+for ([controls, pieces] of rows(_left_words(along, mul(u, across), mul(u, turned)))) {
+lengths = np.stack(pieces, { axis: -1 });
 exists = np.flatnonzero(np.isfinite(lengths).all({ axis: 1 }));
-control = np.tile(mul(np.array(word.control), u), [exists.size, 1]);
+control = np.tile(mul(np.array(controls), u), [exists.size, 1]);
 append_(found, Words(exists, control, mul(item(lengths, exists), radius), np.full(control.shape, radius)));
 }
 }
@@ -6860,6 +6825,13 @@ static joined(cls, several) {
 return cls(...iter(list(iter(zip(...iter(several)))).map((columns) => np.concatenate(columns))));
 }
 }, ["to", "control", "length", "radius"], 'Words');
+
+function airs__flown(x, y, heading, u, length, r, wx, wy) {
+let angle, chord, half;
+angle = div(length, r);
+[half, chord] = iter([add(heading, mul(mul(0.5, u), angle)), np.where(eq(u, 0.0), length, mul(mul(2.0, r), np.sin(mul(0.5, angle))))]);
+return [add(add(x, mul(chord, np.cos(half))), mul(wx, length)), add(add(y, mul(chord, np.sin(half))), mul(wy, length))];
+}
 
 function _clear_arcs(fence, arcs, margin_m) {
 let circles, clear, found, least, outside;
@@ -6917,13 +6889,6 @@ this.length = length;
 
 }
 }, ["to", "control", "length"], 'Word');
-
-function airs__flown(x, y, heading, u, length, r, wx, wy) {
-let angle, chord, half;
-angle = div(length, r);
-[half, chord] = iter([add(heading, mul(mul(0.5, u), angle)), np.where(eq(u, 0.0), length, mul(mul(2.0, r), np.sin(mul(0.5, angle))))]);
-return [add(add(x, mul(chord, np.cos(half))), mul(wx, length)), add(add(y, mul(chord, np.sin(half))), mul(wy, length))];
-}
 
 function _shares_at(curve, offset, cx, cy, distance) {
 let a, apart, b, cosine, normals, root_2, shares, wx, wy;
@@ -7012,13 +6977,13 @@ let ahead, course, cross, far, first, half, last, left_x, left_y, right_x, right
 [right_x, right_y] = iter([add(x, np.sin(turned)), sub(sub(y, np.cos(turned)), 1.0)]);
 far = np.hypot(left_x, left_y);
 ahead = np.where(lt(far, WHOLE_TURN), 0.0, np.arctan2(left_y, left_x));
-yield LeftWord([1.0, 0.0, 1.0], _arc(ahead), far, _arc(sub(turned, ahead)));
+yield [[1.0, 0.0, 1.0], [_arc(ahead), far, _arc(sub(turned, ahead))]];
 cross = np.sqrt(sub(add(pow(right_x, 2), pow(right_y, 2)), 4.0));
 course = add(np.arctan2(right_y, right_x), np.arctan2(2.0, cross));
-yield LeftWord([1.0, 0.0, -1.0], _arc(course), cross, _arc(sub(course, turned)));
+yield [[1.0, 0.0, -1.0], [_arc(course), cross, _arc(sub(course, turned))]];
 half = np.arccos(mul(0.25, far));
 [first, last] = iter([_arc(add(add(ahead, half), mul(0.5, math.pi))), _arc(sub(add(sub(turned, ahead), half), mul(1.5, math.pi)))]);
-yield LeftWord([1.0, -1.0, 1.0], first, add(math.pi, mul(2.0, half)), last);
+yield [[1.0, -1.0, 1.0], [first, add(math.pi, mul(2.0, half)), last]];
 }
 
 function* families(ends) {
@@ -7098,17 +7063,6 @@ t1 = mul(first, sub(add(alpha, azimuth), math.atan2(ends.c0, neg(ends.s0))));
 t3 = mul(last, sub(sub(math.atan2(ends.c, neg(ends.s)), azimuth), beta));
 return ThreeArcs(first, curvature_at(family, alpha), last, mod(t1, TWO_PI), t2, mod(t3, TWO_PI));
 }
-
-const LeftWord = struct(class extends Tuple {
-constructor(control, first, middle, last) {
-super();
-this.control = control;
-this.first = first;
-this.middle = middle;
-this.last = last;
-
-}
-}, ["control", "first", "middle", "last"], 'LeftWord');
 
 function _arc(angle) {
 let within;
@@ -7249,6 +7203,7 @@ const LAP_STEPS = 120;
 const STEP = 0.05;
 const MOST_STEPS = 6000;
 const LEAST_CORNERS = 3;
+const TOUCH_M = 1e-06;
 const MAX_POINTS = 20000;
 const REACH = pow(2.0, 52);
 const CHORD_ERROR = 0.002;
@@ -7261,7 +7216,8 @@ const BAND = Band();
 const SAME_TIME = 1e-09;
 const HOLD_LETTERS = new Map([[Turn.CW, "R"], [Turn.CCW, "L"]]);
 const SAME_CORNER_M = 1e-06;
-const TOUCH_M = 1e-06;
+const LEAST_MARGIN_M = 5.0;
+const MARGIN_SHARE = 0.05;
 const TWO_PI = mul(2.0, math.pi);
 const MOST_TURNS = 100000.0;
 const BASIS_VIOLATED = "a condition is violated";
@@ -7298,8 +7254,10 @@ const COUNTED_DEG = 10.0;
 const CHORD_RAD = 0.1;
 const PARTS = new Map([["enter", "ff005ed5"], ["hold", "ff000000"], ["leave", "ffb27200"]]);
 const LAND_START = MissionItem(MavCommand.DO_LAND_START, Frame.NOWHERE, NO_PARAMS, 0.0, 0.0, 0.0);
-const LEAST_MARGIN_M = 5.0;
-const MARGIN_SHARE = 0.05;
+const MOST_LEVELS = 16;
+const SPLIT = 12;
+const FIRST_PART_RAD = 0.8;
+const RESOLUTION_M = mul(0.1, TOUCH_M);
 const KNOT = div(1852.0, 3600.0);
 const TURNS = new Map(list(iter(items_(SIDES))).map((one) => iter(one)).map(([turn, side]) => [side, turn]));
 const _MESSAGES = new Map([[kernel.Status.OK, "solved"], [kernel.Status.NOT_FINITE, "the state, the radius or the wind is nan or infinite"], [kernel.Status.RADIUS_TOO_SMALL, "the circle is tighter than the minimum turn radius"], [kernel.Status.OUT_OF_RANGE, "the state or the radius is beyond 2**52 turn radii, where a double cannot resolve one turn, or a place on Earth is more than 100 km away"], [kernel.Status.BAD_TOLERANCE, "the tolerance must be zero or positive, and below 2**52 turn radii"], [kernel.Status.BAD_AIRCRAFT, "airspeed and turn limit must be positive, finite numbers, and a bank below 90 degrees"], [kernel.Status.BAD_ORBIT, "the circle needs a finite centre and velocity, and a positive, finite radius"], [kernel.Status.BAD_TURN, "the turn must be cw, ccw or either"], [kernel.Status.BAD_POSE, "the position and the heading must be finite numbers, and latitudes within 90 degrees"], [kernel.Status.MALFORMED, "the line has more or fewer fields than the header, an open quote, is too long, or is not UTF-8"], [kernel.Status.WIND_TOO_STRONG, "the wind relative to the circle is as fast as the aircraft: |w| must be below 1"], [kernel.Status.NOT_HELD, "the circle is too tight to be held in this wind"], [kernel.Status.NOT_CONVERGED, "no maneuver was found that ends on the circle when flown"], [kernel.Status.BAD_WIND, "the wind needs a finite speed, zero or positive, and a finite direction"], [kernel.Status.BAD_SLOT, "the slot needs a finite bearing, and a finite time within 100,000 turns of the start"]]);
@@ -7330,10 +7288,6 @@ const LARGEST_TURNS_RADIUS_M = 255.0;
 const FROM_EXIT = 1.0;
 const HEADING_REQUIRED = 1.0;
 const LATE = 1.0;
-const MOST_LEVELS = 16;
-const SPLIT = 12;
-const FIRST_PART_RAD = 0.8;
-const RESOLUTION_M = mul(0.1, TOUCH_M);
 const adjoints_SHORT = fits_SHORT;
 const SAMPLES = 9;
 const NO_FOLD = pow(2.0, -150);
@@ -7371,6 +7325,7 @@ const MOST_POSES_IN_WIND = 60;
 const HALVINGS = 14;
 const TANGENT_STEPS = 5;
 const clear_entry_LETTERS = new Map(list(iter(items_(CONTROLS))).map((one) => iter(one)).map(([letter, control]) => [float(control), letter]));
+const NO_LENGTH_M = 1e-100;
 const SCANNED_DIRECTIONS = 720;
 const STEPS_IN_STILL_AIR = tuple(list(iter(range(4, 34))).map((k) => pow(2.0, neg(k))));
 const STEPS_IN_WIND = [pow(2.0, -6), pow(2.0, -9), pow(2.0, -12), pow(2.0, -15)];
@@ -7380,7 +7335,6 @@ const UNKNOWN = -1;
 const CLEAR = 1;
 const BATCH = 48;
 const NO_PIECE_M = 1e-08;
-const NO_LENGTH_M = 1e-100;
 const LONGEST = 1000000.0;
 const JOINS = 48;
 const LINE_STEP = 0.5;
