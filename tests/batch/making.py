@@ -3,12 +3,14 @@
 import os
 import subprocess
 import sys
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
 import pyarrow as pa
 import pyarrow.csv
 import pyarrow.parquet as pq
+import pytest
 
 from loiter import Aircraft, Orbit
 from loiter.batch.jobs import parts
@@ -16,7 +18,12 @@ from loiter.batch.tables import files, outputs
 
 UAV = Aircraft(18.0, max_bank_deg=35.0)
 ORBIT = Orbit(0.0, 0.0, 80.0)
+GIVEN = {"orbit": ORBIT, "aircraft": UAV}
 OPTIONS = ["--orbit", "0", "0", "80", "--airspeed", "18", "--bank", "35"]
+# Of children, which find these modules too.
+ENVIRONMENT = os.environ | {
+    "PYTHONPATH": os.pathsep.join([str(Path(__file__).parents[1]), os.environ.get("PYTHONPATH", "")])
+}
 ADDED = [
     "duration_s",
     "word",
@@ -94,8 +101,9 @@ def killing(*arguments):
     assert done.returncode == 0, (command, done.stdout, done.stderr)
 
 
-def stop_after(monkeypatch, count, error):
-    """Let a job raise an error after some parts."""
+@contextmanager
+def stopping(count, error):
+    """Inside it a job raises an error after some parts."""
     solve, done = parts.solve_part, []
 
     def solve_part(job, part, *tick):
@@ -104,7 +112,9 @@ def stop_after(monkeypatch, count, error):
         done.append(part)
         return solve(job, part, *tick)
 
-    monkeypatch.setattr("loiter.batch.jobs.job.solve_part", solve_part)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("loiter.batch.jobs.job.solve_part", solve_part)
+        yield
 
 
 def change_after_each_part(monkeypatch, path):

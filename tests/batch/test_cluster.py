@@ -1,7 +1,6 @@
 """A real Dask scheduler and real workers: the same bytes as on one machine, also if workers are lost."""
 
 import gzip
-import os
 import re
 import signal
 import subprocess
@@ -13,11 +12,9 @@ from pathlib import Path
 import pytest
 
 import loiter
-from batch.making import OPTIONS, ORBIT, UAV, poses, small_parts, write
+from batch.making import ENVIRONMENT, OPTIONS, ORBIT, UAV, poses, small_parts, write
 from loiter.batch.jobs import cluster, folder
 
-HERE = Path(__file__).parent
-ENVIRONMENT = os.environ | {"PYTHONPATH": os.pathsep.join([str(HERE.parent), os.environ.get("PYTHONPATH", "")])}
 BATCH = """
 import sys
 from batch.killing import small

@@ -11,11 +11,10 @@ import pyarrow.parquet as pq
 import pytest
 
 import loiter
-from batch.making import ADDED, ORBIT, UAV
+from batch.making import ADDED, GIVEN
 from loiter.batch.tables import files, ingest
 from loiter.errors import InvalidArgument
 
-GIVEN = {"orbit": ORBIT, "aircraft": UAV}
 HEADER = "id,east_m,north_m,heading_deg\n"
 
 

@@ -14,7 +14,7 @@ import pyarrow.parquet as pq
 import pytest
 
 import loiter
-from batch.making import OPTIONS, ORBIT, UAV, change_after_each_part, poses, read, small_parts, stop_after, write
+from batch.making import GIVEN, OPTIONS, change_after_each_part, poses, read, small_parts, stopping, write
 from loiter.batch.jobs import folder, parts
 from loiter.batch.tables.sources import SUCCESS
 from loiter.cli.app import main
@@ -22,9 +22,6 @@ from loiter.errors import InvalidArgument, Unfinished
 
 # Dask calls pandas in a way that pandas 3.1 wants to end.
 pytestmark = pytest.mark.filterwarnings("ignore:The inplace keyword")
-
-HERE = Path(__file__).parent
-GIVEN = {"orbit": ORBIT, "aircraft": UAV}
 
 
 @pytest.fixture(autouse=True)
@@ -258,9 +255,8 @@ def test_headers_of_csv_files_must_agree():
         run("*.csv")
 
 
-def test_a_stopped_job_resumes_from_its_parts(expected, monkeypatch, capsys):
-    with monkeypatch.context() as patch:
-        stop_after(patch, 4, OSError(5, ""))
+def test_a_stopped_job_resumes_from_its_parts(expected, capsys):
+    with stopping(4, OSError(5, "")):
         assert main(["batch", "in.parquet", "out/", *OPTIONS, "--workers", "1"]) == 2
     place = Path("out").absolute()
     kept = f"4 finished parts stay in {place}, and the same command resumes from there"
@@ -274,11 +270,9 @@ def test_a_stopped_job_resumes_from_its_parts(expected, monkeypatch, capsys):
     assert rows_of() == expected
 
 
-def test_readers_do_not_see_what_is_unfinished(expected, monkeypatch):
-    with monkeypatch.context() as patch:
-        stop_after(patch, 4, OSError(5, ""))
-        with pytest.raises(Unfinished):
-            run(workers=1)
+def test_readers_do_not_see_what_is_unfinished(expected):
+    with stopping(4, OSError(5, "")), pytest.raises(Unfinished):
+        run(workers=1)
     Path("out/_temporary/part-00009-01234567.parquet.0123.tmp").write_bytes(b"half")
     durations = numbers(row["duration_s"] for row in expected[:400])
     for name, reader in READERS.items():
@@ -332,15 +326,13 @@ def another_input():
 
 @pytest.mark.parametrize("finished", [True, False])
 @pytest.mark.parametrize("change", [another_option, another_input])
-def test_parts_of_another_job_are_refused(expected, monkeypatch, change, finished):
-    with monkeypatch.context() as patch:
-        if not finished:
-            stop_after(patch, 4, OSError(5, ""))
-            with pytest.raises(Unfinished):
-                run(workers=1)
-        else:
-            run()
-        Path("out", SUCCESS).unlink(missing_ok=True)
+def test_parts_of_another_job_are_refused(expected, change, finished):
+    if not finished:
+        with stopping(4, OSError(5, "")), pytest.raises(Unfinished):
+            run(workers=1)
+    else:
+        run()
+    Path("out", SUCCESS).unlink(missing_ok=True)
     before = {path: path.is_dir() or path.read_bytes() for path in Path("out").rglob("*")}
     with pytest.raises(InvalidArgument, match="it has parts of a job with another input, option or program, such as"):
         run(**change())
@@ -367,10 +359,8 @@ def test_an_existing_empty_folder_needs_no_slash(expected):
 def test_a_job_that_cannot_begin_leaves_no_folder(expected):
     with pytest.raises(InvalidArgument, match="its working folder _temporary cannot be created, No such file"):
         run(target="missing/out/")
-    with pytest.MonkeyPatch.context() as patch:
-        stop_after(patch, 0, OSError(5, ""))
-        with pytest.raises(Unfinished, match="no part was finished"):
-            run()
+    with stopping(0, OSError(5, "")), pytest.raises(Unfinished, match="no part was finished"):
+        run()
     assert names(".") == ["expected.parquet", "in.parquet"]
 
 
@@ -442,13 +432,11 @@ def test_names_sort_in_the_order_of_the_rows():
     assert folder.part_name(7, 10, "0123456789") == "part-00007-01234567.parquet"
 
 
-def test_the_description_lists_all_files(monkeypatch):
+def test_the_description_lists_all_files():
     Path("data").mkdir()
     written("data", 3)
-    with monkeypatch.context() as patch:
-        stop_after(patch, 1, OSError(5, ""))
-        with pytest.raises(Unfinished):
-            run("data", workers=1)
+    with stopping(1, OSError(5, "")), pytest.raises(Unfinished):
+        run("data", workers=1)
     description = json.loads(Path("out/_temporary/job.json").read_text())
     assert [Path(file["file"]).name for file in description["files"]] == [f"part.{i}.parquet" for i in range(3)]
     assert description["program"] == loiter.__version__

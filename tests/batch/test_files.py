@@ -11,12 +11,10 @@ import pyarrow.parquet as pq
 import pytest
 
 import loiter
-from batch.making import ADDED, ORBIT, UAV, poses, read, scenes, write
+from batch.making import ADDED, GIVEN, ORBIT, UAV, poses, read, scenes, write
 from loiter import Aircraft, Orbit, Pose, Turn, plan
 from loiter.batch.tables import files, outputs
 from loiter.planning.model import TURN_LIMITS
-
-GIVEN = {"orbit": ORBIT, "aircraft": UAV}
 
 
 def assert_planned(rows, limit="max_bank_deg", **shared):

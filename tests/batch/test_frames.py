@@ -7,10 +7,8 @@ import pytest
 from pandas.testing import assert_frame_equal
 
 import loiter
-from batch.making import ADDED, ORBIT, UAV, poses, read, scenes, write
+from batch.making import ADDED, GIVEN, ORBIT, poses, read, scenes, write
 from loiter.errors import InvalidArgument
-
-GIVEN = {"orbit": ORBIT, "aircraft": UAV}
 
 
 def test_a_frame_gets_what_a_file_gets(tmp_path):

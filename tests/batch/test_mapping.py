@@ -14,14 +14,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import loiter
-from batch.making import ORBIT, UAV, poses, read, scenes, write
+from batch.making import GIVEN, UAV, poses, read, scenes, write
 from loiter import Orbit, Turn, plan
 from loiter.batch.tables.mapping import mapped_columns
 from loiter.cli.app import main
 from loiter.errors import InvalidArgument
 from loiter.geo import LocalFrame
 
-GIVEN = {"orbit": ORBIT, "aircraft": UAV}
 OWN = {
     "east_m": "X_East [ft]",
     "north_m": "Y (KM)",

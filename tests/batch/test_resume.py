@@ -14,17 +14,13 @@ from random import SystemRandom
 import pytest
 
 import loiter
-from batch.making import OPTIONS, ORBIT, UAV, killing, poses, small_parts, stop_after, write
+from batch.making import ENVIRONMENT, GIVEN, OPTIONS, ORBIT, UAV, killing, poses, small_parts, stopping, write
 from loiter.batch.jobs import folder, parts
 from loiter.batch.jobs import job as jobs
 from loiter.batch.jobs import request as requests
 from loiter.batch.tables.columns import shared_values
 from loiter.cli.app import main
 from loiter.errors import Unfinished
-
-HERE = Path(__file__).parent
-ENVIRONMENT = os.environ | {"PYTHONPATH": os.pathsep.join([str(HERE.parent), os.environ.get("PYTHONPATH", "")])}
-GIVEN = {"orbit": ORBIT, "aircraft": UAV}
 
 
 @pytest.fixture(autouse=True)
@@ -69,11 +65,10 @@ def test_a_second_process_is_refused(job, capsys):
     assert capsys.readouterr().err == "loiter: OUT is 'out.parquet': another loiter batch is writing it\n"
 
 
-def test_a_full_disk_keeps_the_finished_parts(job, capsys, monkeypatch):
+def test_a_full_disk_keeps_the_finished_parts(job, capsys):
     arguments, expected = job
     Path("out.parquet").write_bytes(b"older")
-    with monkeypatch.context() as patch:
-        stop_after(patch, 4, OSError(errno.ENOSPC, "Error writing bytes to file"))
+    with stopping(4, OSError(errno.ENOSPC, "Error writing bytes to file")):
         assert main([*arguments, "--workers", "1"]) == 2
     note, err = capsys.readouterr().err.splitlines(keepends=True)
     assert note == "out.parquet exists: it will be replaced once all rows are solved\n"
@@ -160,10 +155,10 @@ def test_an_interrupt_is_reported_and_what_is_finished_is_kept(tmp_path, workers
     assert "out.parquet" not in names(tmp_path)
 
 
-def test_an_interrupt_before_any_part_leaves_nothing(job, capsys, monkeypatch):
+def test_an_interrupt_before_any_part_leaves_nothing(job, capsys):
     arguments, _ = job
-    stop_after(monkeypatch, 0, KeyboardInterrupt())
-    assert main(arguments) == 130
+    with stopping(0, KeyboardInterrupt()):
+        assert main(arguments) == 130
     assert capsys.readouterr().err == "loiter: interrupted; no part was finished\n"
     assert names(".") == ["expected.parquet", "in.parquet"]
 
@@ -194,8 +189,7 @@ STALE = {
 @pytest.mark.parametrize(("change", "options"), STALE.values(), ids=STALE)
 def test_parts_of_another_job_are_not_mixed_in(job, capsys, monkeypatch, change, options):
     arguments, _ = job
-    with monkeypatch.context() as patch:
-        stop_after(patch, 4, OSError(errno.ENOSPC, ""))
+    with stopping(4, OSError(errno.ENOSPC, "")):
         assert main(arguments) == 2
     change(monkeypatch)
     assert main(["batch", "in.parquet", "expected.parquet", *OPTIONS, *options]) == 0
@@ -206,9 +200,9 @@ def test_parts_of_another_job_are_not_mixed_in(job, capsys, monkeypatch, change,
     assert Path("out.parquet").read_bytes() == Path("expected.parquet").read_bytes()
 
 
-def test_the_description_says_what_the_parts_depend_on(job, monkeypatch):
-    stop_after(monkeypatch, 1, OSError(errno.EIO, ""))
-    with pytest.raises(Unfinished, match="Input/output error; 1 finished part stays in"):
+def test_the_description_says_what_the_parts_depend_on(job):
+    stopped = "Input/output error; 1 finished part stays in"
+    with stopping(1, OSError(errno.EIO, "")), pytest.raises(Unfinished, match=stopped):
         loiter.batch.run("in.parquet", "out.parquet", workers=1, **GIVEN)
     description = json.loads(Path("out.parquet.parts/job.json").read_text())
     assert description["program"] == loiter.__version__
@@ -233,10 +227,9 @@ def test_the_description_says_what_the_parts_depend_on(job, monkeypatch):
     }
 
 
-def test_a_part_that_lost_its_end_is_done_again(job, monkeypatch):
+def test_a_part_that_lost_its_end_is_done_again(job):
     arguments, expected = job
-    with monkeypatch.context() as patch:
-        stop_after(patch, 4, OSError(errno.EIO, ""))
+    with stopping(4, OSError(errno.EIO, "")):
         assert main([*arguments, "--workers", "1"]) == 2
     for number, size in {1: 0, 2: 3000}.items():
         [path] = Path("out.parquet.parts").glob(f"part-{number:05}-*")

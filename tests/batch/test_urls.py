@@ -18,14 +18,13 @@ import pyarrow.parquet as pq
 import pytest
 
 import loiter
-from batch.making import OPTIONS, ORBIT, UAV, poses, read, small_parts, stop_after, write
+from batch.making import GIVEN, OPTIONS, poses, read, small_parts, stopping, write
 from loiter.batch.jobs import parts
 from loiter.batch.tables import storage
 from loiter.batch.tables.sources import SUCCESS
 from loiter.cli.app import main
 from loiter.errors import InvalidArgument, MissingPackage, Unfinished
 
-GIVEN = {"orbit": ORBIT, "aircraft": UAV}
 S3 = os.environ.get("LOITER_TEST_S3")
 
 
@@ -133,11 +132,9 @@ def test_a_dataset_or_a_pattern_behind_a_url_is_the_input(root, source):
 
 
 @pytest.mark.parametrize("target", ["out/", "out.parquet"])
-def test_a_stopped_job_resumes_from_the_parts_behind_the_url(root, expected, monkeypatch, target):
-    with monkeypatch.context() as patch:
-        stop_after(patch, 4, OSError(5, ""))
-        with pytest.raises(Unfinished, match=f"4 finished parts stay in {root}/out"):
-            loiter.batch.run(f"{root}/in.parquet", f"{root}/{target}", workers=1, **GIVEN)
+def test_a_stopped_job_resumes_from_the_parts_behind_the_url(root, expected, target):
+    with stopping(4, OSError(5, "")), pytest.raises(Unfinished, match=f"4 finished parts stay in {root}/out"):
+        loiter.batch.run(f"{root}/in.parquet", f"{root}/{target}", workers=1, **GIVEN)
     assert "out.parquet" not in below(root)
     summary = loiter.batch.run(f"{root}/in.parquet", f"{root}/{target}", **GIVEN)
     assert summary.resumed_parts == 4
