@@ -68,7 +68,7 @@ class PolygonZone:
             raise InvalidArgument(where, problem)
 
     @cached_property
-    def edges(self) -> Edges:
+    def _edges(self) -> Edges:
         """The edges as arrays."""
         return edges_of([self])
 
@@ -163,7 +163,7 @@ def signed_distance(zone: Zone, east_m: Any, north_m: Any) -> Any:
     if isinstance(zone, CircleZone):
         outside = np.hypot(east_m - zone.east_m, north_m - zone.north_m) - zone.radius_m
         return -outside if zone.inclusion else outside
-    return to_edge(east_m[:, None], north_m[:, None], zone.edges).min(axis=1) * polygon_sign(zone, east_m, north_m)
+    return to_edge(east_m[:, None], north_m[:, None], zone._edges).min(axis=1) * polygon_sign(zone, east_m, north_m)
 
 
 def clear_points(fence: Zones, east_m: Any, north_m: Any, margin_m: Any) -> Any:

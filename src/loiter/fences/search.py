@@ -281,7 +281,7 @@ def _from_circle(zone: CircleZone, chords: Chords) -> tuple[Any, Any, Any]:
 def _from_polygon(zone: PolygonZone, chords: Chords) -> tuple[Any, Any, Any]:
     """No more than the least signed distance of chords from a polygon, and those of their ends."""
     c = chords.columns()
-    found = chord_to_edge(c.ax, c.ay, c.bx, c.by, zone.edges)
+    found = chord_to_edge(c.ax, c.ay, c.bx, c.by, zone._edges)
     sides = polygon_sign(zone, np.append(chords.ax, chords.bx), np.append(chords.ay, chords.by))
     side_a, side_b = np.split(sides, 2)
     near = found.nearest.distance.min(axis=1)
@@ -335,14 +335,14 @@ def _first_touch(pieces: Pieces, simple: Any, zone: Zone) -> PlaceInPath:
     if bent.size:
         arcs = arcs_of(pieces.take(bent))
         if isinstance(zone, PolygonZone):
-            share[bent] = first_within(*arc_edge_points(arcs, zone.edges), TOUCH_M).min(axis=-1)
+            share[bent] = first_within(*arc_edge_points(arcs, zone._edges), TOUCH_M).min(axis=-1)
         else:
             share[bent] = first_within(*arc_circle_points(arcs, *_disc(zone)), TOUCH_M).min(axis=-1)
     if straight.size:
         lines = pieces.take(straight)
         (ax, ay), (bx, by) = ((v[:, None] for v in lines.position(t)) for t in (0.0, lines.duration_s))
         if isinstance(zone, PolygonZone):
-            share[straight] = first_within(*chord_edge_points(ax, ay, bx, by, zone.edges), TOUCH_M).min(axis=-1)
+            share[straight] = first_within(*chord_edge_points(ax, ay, bx, by, zone._edges), TOUCH_M).min(axis=-1)
         else:
             share[straight] = first_within(*chord_circle_points(ax, ay, bx, by, *_disc(zone)), TOUCH_M).min(axis=-1)
     touched = (share < np.inf).nonzero()[0]

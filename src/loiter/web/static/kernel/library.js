@@ -163,7 +163,7 @@ if (truth((problem = shapes.invalidity(self._polygon)))) {
 throw errors.InvalidArgument(where, problem);
 }
 }
-get edges() { return cached(this, "edges", () => {
+get _edges() { return cached(this, "_edges", () => {
 const self = this;
 return edges_of([self]);
 }); }
@@ -4751,7 +4751,7 @@ share = np.full(pieces.x.size, np.inf);
 if (truth(bent.size)) {
 arcs = arcs_of(pieces.take(bent));
 if (truth(isinstance(zone, PolygonZone))) {
-set_item(share, bent, first_within(...iter(arc_edge_points(arcs, zone.edges)), TOUCH_M).min({ axis: -1 }));
+set_item(share, bent, first_within(...iter(arc_edge_points(arcs, zone._edges)), TOUCH_M).min({ axis: -1 }));
 } else {
 set_item(share, bent, first_within(...iter(arc_circle_points(arcs, ...iter(_disc(zone)))), TOUCH_M).min({ axis: -1 }));
 }
@@ -4760,7 +4760,7 @@ if (truth(straight.size)) {
 lines = pieces.take(straight);
 [[ax, ay], [bx, by]] = iter(list(iter([0.0, lines.duration_s])).map((t) => list(iter(lines.position(t))).map((v) => item(v, [slice(null, null), null]))));
 if (truth(isinstance(zone, PolygonZone))) {
-set_item(share, straight, first_within(...iter(chord_edge_points(ax, ay, bx, by, zone.edges)), TOUCH_M).min({ axis: -1 }));
+set_item(share, straight, first_within(...iter(chord_edge_points(ax, ay, bx, by, zone._edges)), TOUCH_M).min({ axis: -1 }));
 } else {
 set_item(share, straight, first_within(...iter(chord_circle_points(ax, ay, bx, by, ...iter(_disc(zone)))), TOUCH_M).min({ axis: -1 }));
 }
@@ -5685,7 +5685,7 @@ return [sub(near.distance, zone.radius_m), at_a, at_b];
 function _from_polygon(zone, chords) {
 let c, deepest, found, lower, near, side_a, side_b, sides;
 c = chords.columns();
-found = chord_to_edge(c.ax, c.ay, c.bx, c.by, zone.edges);
+found = chord_to_edge(c.ax, c.ay, c.bx, c.by, zone._edges);
 sides = polygon_sign(zone, np.append(chords.ax, chords.bx), np.append(chords.ay, chords.by));
 [side_a, side_b] = iter(np.split(sides, 2));
 near = found.nearest.distance.min({ axis: 1 });
@@ -6237,7 +6237,7 @@ if (truth(isinstance(zone, CircleZone))) {
 outside = sub(np.hypot(sub(east_m, zone.east_m), sub(north_m, zone.north_m)), zone.radius_m);
 return (truth(zone.inclusion) ? neg(outside) : outside);
 }
-return mul(to_edge(item(east_m, [slice(null, null), null]), item(north_m, [slice(null, null), null]), zone.edges).min({ axis: 1 }), polygon_sign(zone, east_m, north_m));
+return mul(to_edge(item(east_m, [slice(null, null), null]), item(north_m, [slice(null, null), null]), zone._edges).min({ axis: 1 }), polygon_sign(zone, east_m, north_m));
 }
 
 function polygon_sign(zone, east_m, north_m) {
