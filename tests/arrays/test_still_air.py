@@ -8,10 +8,8 @@ import pandas as pd
 import pytest
 
 import loiter
-from arrays.overlapping import overlaps
 from golden.paper import EXAMPLES
 from loiter import Aircraft, Orbit, Pose, plan
-from loiter.arrays import Solution
 from loiter.errors import InvalidArgument
 from loiter.kernel.entry import duration, first_control, miss
 from loiter.kernel.statuses import Status
@@ -136,83 +134,6 @@ def test_results_go_where_they_are_wanted():
     assert y.tolist() == [1.0, 1.0, 1.0]
 
 
-@pytest.mark.parametrize("workers", [1, 2])
-@pytest.mark.parametrize("function", [loiter.min_time, loiter.control])
-def test_elsewhere_the_results_stay_as_they_are(function, workers):
-    wanted, out = X > 0.0, np.full(3000, 7.0)
-    assert function(X, Y, R, TURNS, out=out, where=wanted, workers=workers) is out
-    assert np.array_equal(out, np.where(wanted, function(X, Y, R, TURNS), 7.0))
-    with pytest.raises(InvalidArgument, match="where needs out"):
-        function(X, Y, where=wanted)
-
-
-def test_a_solution_stays_as_it_is_elsewhere():
-    wanted, solution = X > 0.0, loiter.solve(X, Y, R, TURNS)
-    out = Solution(*(np.full_like(values, 7) for values in solution))
-    assert loiter.solve(X, Y, R, TURNS, out=out, where=wanted) is out
-    for found, values in zip(out, solution, strict=True):
-        assert np.array_equal(found[wanted], values[wanted])
-        assert np.all(found[~wanted] == 7)
-
-
-@pytest.mark.parametrize("workers", [2, 3, -1])
-def test_threads_share_the_work(workers):
-    grid = X.reshape(30, 100), Y.reshape(30, 100), R.reshape(30, 100), TURNS.reshape(30, 100)
-    assert np.array_equal(loiter.min_time(*grid, workers=workers), loiter.min_time(*grid))
-    assert np.array_equal(loiter.control(*grid, workers=workers), loiter.control(*grid))
-    alone, shared = loiter.solve(*grid), loiter.solve(*grid, workers=workers)
-    assert all(np.array_equal(a, b) for a, b in zip(alone, shared, strict=True))
-    assert loiter.min_time(4.0, 4.0, workers=workers) == loiter.min_time(4.0, 4.0)
-    assert loiter.min_time(X[:1], Y[:1], workers=workers).shape == (1,)
-    out = np.empty(3000)
-    loiter.min_time(X, Y, 1.0, workers=workers, out=out)
-    assert np.array_equal(out, loiter.min_time(X, Y))
-
-
-OVERLAPS = overlaps(1000)
-
-
-@pytest.mark.parametrize("workers", [1, 2, 3])
-@pytest.mark.parametrize("overlap", OVERLAPS)
-@pytest.mark.parametrize("name", ["min_time", "control"])
-def test_a_result_may_overlap_an_argument(name, overlap, workers):
-    function, (source, target) = getattr(loiter, name), OVERLAPS[overlap]
-    memory, y = X.copy(), Y[source]
-    expected = function(X[source], y)
-    function(memory[source], y, out=memory[target], workers=workers)
-    assert np.array_equal(memory[target], expected)
-    # A number read from where the results go.
-    memory = X.copy()
-    function(memory[-1:].reshape(()), Y, out=memory, workers=workers)
-    assert np.array_equal(memory, function(X[-1], Y))
-
-
-@pytest.mark.parametrize("workers", [1, 2, 3])
-@pytest.mark.parametrize("overlap", OVERLAPS)
-@pytest.mark.parametrize("field", Solution._fields)
-def test_a_solution_may_overlap_its_arguments(field, overlap, workers):
-    source, target = OVERLAPS[overlap]
-    codes = np.array([SIDES[turn] for turn in TURNS], dtype=np.int8)
-    expected = loiter.solve(X[source], Y[source], 1.5, codes[source])
-    x, sides, blank = X.copy(), codes.copy(), loiter.solve(np.zeros(len(X[source])), 1.0)
-    if field == "durations":
-        # The first argument is the last column of the durations, there or elsewhere.
-        memory = np.tile(x[:, np.newaxis], 3)
-        x, out = memory[:, 2], blank._replace(durations=memory[target])
-    else:
-        out = blank._replace(**{field: (x if getattr(blank, field).dtype == float else sides)[target]})
-    found = loiter.solve(x[source], Y[source], 1.5, sides[source], out=out, workers=workers)
-    assert all(np.array_equal(a, b) for a, b in zip(found, expected, strict=True))
-
-
-def test_a_result_that_cannot_be_shared_among_threads_is_filled_all_the_same():
-    filled = np.empty(3000)
-    assert loiter.min_time(X, Y, out=(filled,), workers=2) is filled
-    assert np.array_equal(filled, loiter.min_time(X, Y))
-    with pytest.raises(TypeError, match="must be of ArrayType"):
-        loiter.min_time(X, Y, out=[0.0] * 3000, workers=2)
-
-
 def test_lazy_results_fill_nothing():
     x = pytest.importorskip("dask.array").from_array(X, chunks=700)
     out = np.zeros(3000), np.zeros(3000)
@@ -261,28 +182,6 @@ def test_dask_arrays_stay_lazy_and_chunked():
     orbit, uav = Orbit(10.0, 20.0, 80.0), Aircraft(18.0, max_bank_deg=35.0)
     for lazy, values in zip(loiter.reduce(x, y, 30.0, orbit, uav), loiter.reduce(X, Y, 30.0, orbit, uav), strict=True):
         assert lazy.compute() == pytest.approx(values, abs=1e-15)
-
-
-def test_columns_of_pandas_stay_columns():
-    pandas = pytest.importorskip("pandas")
-    frame = pandas.DataFrame({"x": X, "y": Y}, index=np.arange(3000) + 7)
-    times = loiter.min_time(frame.x, frame.y, 1.5)
-    assert times.index.equals(frame.index)
-    assert np.array_equal(times, loiter.min_time(X, Y, 1.5))
-    assert np.array_equal(loiter.solve(frame.x, frame.y).time, loiter.solve(X, Y).time)
-    x, _ = loiter.reduce(frame.x, frame.y, 90.0, Orbit(0.0, 0.0, 80.0), Aircraft(18.0, min_turn_radius_m=1.0))
-    assert x.index.equals(frame.index)
-
-
-@pytest.mark.parametrize("function", [loiter.min_time, loiter.control])
-def test_columns_stay_columns_whatever_the_number_of_workers(function):
-    """Threads are for NumPy's arrays alone, also where some arguments are numbers."""
-    pandas, array = pytest.importorskip("pandas"), pytest.importorskip("dask.array")
-    column = function(pandas.Series(X), Y, 1.5, workers=2)
-    assert isinstance(column, pandas.Series)
-    assert np.array_equal(column, function(X, Y, 1.5))
-    lazy = function(array.from_array(X, chunks=700), Y, 1.5, workers=2)
-    assert lazy.chunks == ((700, 700, 700, 700, 200),)
 
 
 def test_arrays_of_xarray_keep_their_names():

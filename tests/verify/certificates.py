@@ -171,6 +171,19 @@ BOUNDARIES = {"curves": at_curve, "axis": at_axis, "ties": at_tie}
 BOUNDARIES_IN_WIND = {"ties in wind": at_windy_tie}
 
 
+def altered(m: Maneuver, which: int, by_s: float) -> Maneuver:
+    """The maneuver with a duration that is longer by some seconds, but not its poses."""
+    segments = list(m.segments)
+    segments[which] = replace(segments[which], duration_s=max(segments[which].duration_s + by_s, 0.0))
+    return replace(m, segments=tuple(segments))
+
+
+def certified(certificate: Certificate) -> Certificate:
+    """The certificate, which must be valid."""
+    assert certificate.valid, f"\n{certificate}"
+    return certificate
+
+
 # Wrong maneuvers
 
 
@@ -182,11 +195,9 @@ def wrong_ones(random: Random, scene: Scene) -> Iterator[tuple[str, Maneuver]]:
     """
     best, *losers = candidates(*scene)
     made: list[tuple[str, Maneuver]] = [("loser", random.choice(losers))] if losers else []
-    pieces = list(best.segments)
-    if pieces:
-        i, by = random.randrange(len(pieces)), random.choice((-1e-6, 1e-6)) * problem_of(best).time_unit_s
-        moved = replace(pieces[i], duration_s=max(pieces[i].duration_s + by, 0.0))
-        made.append(("duration", replace(best, segments=(*pieces[:i], moved, *pieces[i + 1 :]))))
+    if best.segments:
+        i, by = random.randrange(len(best.segments)), random.choice((-1e-6, 1e-6)) * problem_of(best).time_unit_s
+        made.append(("duration", altered(best, i, by)))
         made.append(("word", exchanged(random, best)))
     for name, maneuver in made:
         if is_wrong(maneuver, best):
@@ -272,12 +283,6 @@ def check_wrong(name: str, i: int, random: Random, scene: Scene, tally: Counter[
 
 
 # The worst scene in wind
-
-
-def residual_share(certificate: Certificate) -> tuple[float, str]:
-    """The largest residual over its bound, and its name: above 1 the certificate is not valid."""
-    known = [(r.value / r.bound, r.name) for r in certificate.residuals if r.value is not None and r.bound]
-    return max(known, default=(0.0, ""))
 
 
 def varied(random: Random, scene: Scene) -> Scene:
