@@ -82,6 +82,8 @@ class Flyer:
     reports_airspeed = True
     altitude_m, home_m, climb_m_s = 600.0, 500.0, 0.0
     sticks_us = 1500, 1500
+    # The joystick's pitch and roll, which a ground station sends to PX4, or none.
+    joystick = None
     estimator_flags = 0b1111111
     ids = {"ATTITUDE": 30, "GLOBAL_POSITION_INT": 33, "VFR_HUD": 74}  # noqa: RUF012
 
@@ -183,6 +185,8 @@ class Flyer:
         elif number == 65:
             channels = [*self.sticks_us, 1000, 1500, *[0] * 14]
             self.transmit_safe(mavlink.MAVLink_rc_channels_message(ms, 16, *channels, 255))
+        elif number == 69 and self.joystick is not None:
+            self.transmit_safe(mavlink.MAVLink_manual_control_message(1, *self.joystick, 500, 0, 0))
         elif number == 87 and self.reports_target and self.hold_circle is not None:
             self.report_target(ms)
         elif number == 245:

@@ -258,6 +258,19 @@ def test_a_pilot_who_moves_a_stick_is_left_alone(kind, sticks_us):
     assert max(outcome.vehicle.heard_at) < JOINING_S + 1.5
 
 
+def test_a_pilot_who_moves_the_joystick_of_a_ground_station_is_left_alone_by_px4():
+    outcome = guided(OffboardPx4(events=[when(0.0, joystick=(0, 0)), when(JOINING_S, joystick=(0, 900))]))
+    assert outcome.end.startswith("the pilot moves a stick: guiding has stopped, nothing more is sent, and ")
+    assert max(outcome.vehicle.heard_at) < JOINING_S + 1.5
+
+
+def test_a_joystick_that_does_not_report_a_stick_is_no_pilot():
+    sticks = Sticks()
+    for y in (0, 32767, -400):
+        sticks.update(SimpleNamespace(get_type=lambda: "MANUAL_CONTROL", x=32767, y=y), {})
+        assert not sticks.moved
+
+
 def moved(*values_us):
     """Whether a stick, that of roll, counts as moved after each of some values; it is on the third channel."""
     sticks, known = Sticks(), {"RCMAP_ROLL": 3.0, "RC_MAP_PITCH": 0.0}

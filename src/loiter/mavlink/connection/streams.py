@@ -79,6 +79,7 @@ def guide_streams(autopilot: Autopilot) -> list[Stream]:
     if autopilot == Autopilot.PX4:
         own = [
             Stream("LOCAL_POSITION_NED", 6),
+            Stream("MANUAL_CONTROL", 3, HEARTBEAT_HZ),
             Stream("WIND_COV", 12, WIND_HZ),
             Stream("ESTIMATOR_STATUS", 12, STATE_HZ),
         ]
