@@ -260,7 +260,9 @@ def test_a_pilot_who_moves_a_stick_is_left_alone(kind, sticks_us):
 
 def test_a_pilot_who_moves_the_joystick_of_a_ground_station_is_left_alone_by_px4():
     outcome = guided(OffboardPx4(events=[when(0.0, joystick=(0, 0)), when(JOINING_S, joystick=(0, 900))]))
-    assert outcome.end.startswith("the pilot moves a stick: guiding has stopped, nothing more is sent, and ")
+    assert outcome.end == (
+        "the pilot moves a stick: guiding has stopped, nothing more is sent, and PX4 follows COM_OBL_RC_ACT: hold"
+    )
     assert max(outcome.vehicle.heard_at) < JOINING_S + 1.5
 
 

@@ -348,10 +348,11 @@ class GuidedFlight:
         lost = bool(self._monitor.silent(monotonic()))
         if mode not in (GUIDED, OFFBOARD, HOLD) or not self._accepted:
             return f"{contact.name} {'was last seen' if lost else 'flies'} in {self._modes.name}"
-        elsewhere = self._observe_elsewhere()
+        # In OFFBOARD the place that PX4 reports is that of our last setpoint.
+        elsewhere = "" if mode == OFFBOARD else self._observe_elsewhere()
         if elsewhere:
             return f"{contact.name} flies in {self._modes.name} {elsewhere}"
-        if self._steered and self._modes.mode in (GUIDED, OFFBOARD):
+        if self._steered and (mode == OFFBOARD or self._modes.mode == GUIDED):
             return loss_consequence(contact, self._setup)
         if elsewhere is None and self._modes.mode == HOLD and self._steered:
             return f"{contact.name} flies in {self._modes.name} and does not report where"
