@@ -24,7 +24,7 @@ from loiter.guidance.rivals.l1 import circle_demand
 from loiter.guidance.vehicle import PlanarPose, Roll, clip, constant_turn
 from loiter.io.flight_log import TEXTS, LogRow, read_log
 from loiter.io.missions.items import Autopilot
-from loiter.mavlink.autopilots.acceleration_sign import CAUTIOUS_DEG, AccelerationSign, sign_of_version
+from loiter.mavlink.autopilots.acceleration_sign import CAUTIOUS_DEG, AccelerationSign, is_release, sign_of_version
 from loiter.mavlink.autopilots.modes import GUIDED, HOLD, OFFBOARD, ModeWatch, is_unfit, mode_name
 from loiter.mavlink.autopilots.settings import autopilot_settings, missing
 from loiter.mavlink.autopilots.steering import AccelerationSteering
@@ -80,18 +80,19 @@ def test_the_version_gives_the_first_guess_of_the_sign(version, sign):
 @given(
     st.sampled_from([1, -1]),
     st.sampled_from([1, -1]),
+    st.booleans(),
     st.floats(-40.0, 40.0),
     st.floats(-49.0, 49.0).filter(lambda bank: abs(bank) > 12.0),
     st.floats(0.1, 0.5),
     st.floats(0.0, 0.2),
 )
-def test_the_response_shows_the_sign_whatever_was_guessed(guess, truth, start, wanted, time_s, dead_s):
+def test_the_response_shows_the_sign_whatever_was_guessed(guess, truth, known, start, wanted, time_s, dead_s):
     """From any bank; the vehicle is slower or faster than declared, and answers after another dead time."""
-    found, roll, bank, now = AccelerationSign(guess, Roll(0.25, 80.0)), Roll(time_s, 80.0), start, 100.0
+    found, roll, bank, now = AccelerationSign(guess, Roll(0.25, 80.0), known=known), Roll(time_s, 80.0), start, 100.0
     targets = [start] * round(dead_s / 0.02 + 1)
     for _ in range(150):
         now += 0.02
-        assert found.limit_deg == (math.inf if found.confirmed else CAUTIOUS_DEG)
+        assert found.limit_deg == (math.inf if known or found.confirmed else CAUTIOUS_DEG)
         command = clip(wanted, found.limit_deg)
         found.update(bank, command, now)
         targets.append(truth * found.sign * command)
@@ -99,6 +100,11 @@ def test_the_response_shows_the_sign_whatever_was_guessed(guess, truth, start, w
     assert found.confirmed
     assert found.sign == truth
     assert found.limit_deg == math.inf
+
+
+def test_what_is_built_between_releases_is_no_release():
+    release, beta, unknown = 1 << 24 | 18 << 16 | 255, 1 << 24 | 18 << 16 | 128, 0
+    assert [is_release(version) for version in (release, beta, unknown)] == [True, False, False]
 
 
 def test_straight_flight_shows_no_sign():

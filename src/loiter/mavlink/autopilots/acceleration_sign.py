@@ -2,6 +2,7 @@
 
 PX4 turned away from the acceleration until its pull request 27582 (June 2026): the version tells the sign of releases,
 the response that of every vehicle. Two models of the bank, one for each sign, are compared with the measured bank.
+Banks are limited until then, unless a release tells the sign.
 """
 
 from __future__ import annotations
@@ -14,7 +15,10 @@ from loiter.guidance.vehicle import Roll
 # The first version, major and minor, whose releases turn towards the acceleration.
 MENDED = (1, 18)
 
-# Until the response has shown the sign, commands are limited to this bank, degrees.
+# The lowest byte of the version of a release (FIRMWARE_VERSION_TYPE_OFFICIAL).
+RELEASE = 255
+
+# Until the response has shown the sign of what is no release, commands are limited to this bank, degrees.
 CAUTIOUS_DEG = 20.0
 
 # The assumed dead time of the response, and the averaging time of the models' errors, seconds.
@@ -33,14 +37,20 @@ def sign_of_version(flight_sw_version: int) -> int:
     return 1 if (flight_sw_version >> 24 & 255, flight_sw_version >> 16 & 255) >= MENDED else -1
 
 
+def is_release(flight_sw_version: int) -> bool:
+    """Whether a version in AUTOPILOT_VERSION is that of a release: what is built between releases may have any sign."""
+    return flight_sw_version & 255 == RELEASE
+
+
 class AccelerationSign:
     """The sign of accelerations: `sign` is the present one, `confirmed` whether the response has shown it.
 
-    `flips` counts how often the response contradicted it.
+    `known` is whether it is believed before that. `flips` counts how often the response contradicted it.
     """
 
-    def __init__(self, sign: int, roll: Roll) -> None:
+    def __init__(self, sign: int, roll: Roll, *, known: bool = False) -> None:
         self.sign, self.confirmed, self.flips = sign, False, 0
+        self._known = known
         self._roll = roll
         # The banks that each sign predicts, and their averaged errors.
         self._banks: dict[int, float] = {}
@@ -51,8 +61,8 @@ class AccelerationSign:
 
     @property
     def limit_deg(self) -> float:
-        """The largest bank to command, degrees: no limit once the sign is confirmed."""
-        return inf if self.confirmed else CAUTIOUS_DEG
+        """The largest bank to command, degrees: no limit where the sign is known, or once it is confirmed."""
+        return inf if self._known or self.confirmed else CAUTIOUS_DEG
 
     def update(self, bank_deg: float, command_deg: float, now: float) -> None:
         """Process a measured bank and the command that is sent with the present sign."""

@@ -15,7 +15,7 @@ from loiter.guidance.entry.slot_entry import SlotEntry
 from loiter.guidance.estimation.turn_fits import bounded_turn_ratio
 from loiter.guidance.protocol import Command, Phase, State
 from loiter.guidance.vehicle import VehicleEstimates, clip
-from loiter.mavlink.autopilots.acceleration_sign import AccelerationSign, sign_of_version
+from loiter.mavlink.autopilots.acceleration_sign import AccelerationSign, is_release, sign_of_version
 from loiter.mavlink.autopilots.modes import GUIDED, HOLD, OFFBOARD
 from loiter.mavlink.autopilots.steering import AccelerationSteering, RollSteering, Steering
 from loiter.mavlink.connection.command import PendingCommand, hold_command, mode_command
@@ -203,7 +203,8 @@ class GuidedFlight:
         vehicle, p = self._contact.link.vehicle, self._setup
         if not self._contact.flies_px4:
             return RollSteering(vehicle)
-        sign = AccelerationSign(sign_of_version(self._contact.version), p.settings.roll)
+        version = self._contact.version
+        sign = AccelerationSign(sign_of_version(version), p.settings.roll, known=is_release(version))
         return AccelerationSteering(vehicle, self._contact.telemetry, p.altitude_m, sign)
 
     def _show(self) -> Generator[GuideReport, None, None]:
