@@ -811,6 +811,13 @@ def test_a_circle_that_may_be_left_downwind_is_warned_of_and_given_up(
     assert problems[22].startswith("in a wind of 12.0 m/s, at 23.8 m/s") == is_given_up
 
 
+def test_an_airspeed_in_turbulence_is_no_forecast():
+    """31 m/s in tight turns, 25 in the mean: were it 37 m/s downwind, the tightest circle would have 260 m."""
+    watch, known = HoldabilityWatch(250.0, 44.5), estimates(0.9, (13.0, 0.0), 25.0)
+    known.turn_airspeed_m_s = 31.0
+    assert not any(watch.problem(known, 0.5 * i) for i in range(30))
+
+
 @pytest.mark.parametrize(("speed", "after_s"), [(14.5, None), (15.1, 8.0), (15.5, 4.0), (16.5, 2.0)])
 def test_a_circle_is_given_up_the_later_the_less_it_is_too_tight(speed, after_s):
     """By 2.5, 6, 8 and 14 %."""

@@ -30,8 +30,8 @@ LEAST_RATIO, UNSETTLED = 0.9, 0.2
 
 # What is not known before the aircraft is downwind is forecast: there its bank grows, and it slips as much as it has at
 # its worst, within the bounds above, which is forgotten over this time, seconds; its airspeed exceeds that of tight
-# turns by what the latter exceeds its mean.
-SLIP_MEMORY_S = 120.0
+# turns by what the latter exceeds its mean, by this share at most: in turbulence more than that is chance.
+SLIP_MEMORY_S, LARGEST_RISE = 120.0, 0.05
 
 # A warning is given where the tightest circle by that forecast has been wider than the circle for the first time,
 # seconds. The circle is given up where it has been wider by this share for the second time, if the aircraft slips: its
@@ -110,7 +110,8 @@ class HoldabilityWatch:
         """The forecast for where the aircraft is downwind; updates the warning. `airspeed_m_s` is the mean airspeed."""
         k, V = tightest.turn_ratio, tightest.airspeed_m_s
         self._least_ratio = min(k, self._least_ratio + (k - self._least_ratio) * dt / SLIP_MEMORY_S)
-        downwind = tightest._replace(turn_ratio=self._least_ratio, airspeed_m_s=V + max(V - airspeed_m_s, 0.0))
+        rise_m_s = min(max(V - airspeed_m_s, 0.0), LARGEST_RISE * airspeed_m_s)
+        downwind = tightest._replace(turn_ratio=self._least_ratio, airspeed_m_s=airspeed_m_s + 2.0 * rise_m_s)
         excess = downwind.excess(self._radius_m) if tightest.wind_m_s < V else 0.0
         self._warned_s = self._warned_s + dt if excess > 0.0 else 0.0
         self._refused_s = self._refused_s + dt if excess > TOO_TIGHT and self._least_ratio < SLIPS else 0.0
