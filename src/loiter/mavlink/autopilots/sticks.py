@@ -1,7 +1,7 @@
-"""Whether the pilot moves the sticks for roll and pitch: those of a remote control (RC_CHANNELS) or of a joystick.
+"""Whether the pilot moves the sticks for roll and pitch (RC_CHANNELS, MANUAL_CONTROL).
 
-PX4 reports the sticks that it obeys in MANUAL_CONTROL, whichever they are; those of a joystick at a ground station are
-not in RC_CHANNELS.
+PX4 reports the sticks that it obeys in MANUAL_CONTROL, those of a remote control or of a joystick at a ground station,
+which are not in RC_CHANNELS.
 """
 
 from __future__ import annotations
