@@ -2,7 +2,7 @@
 --
 -- Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
 --
--- SHA-256 of the source: c0191381d2772563f8cbeb4555494c30966c25ef201d01b20d75ce857d0625b9
+-- SHA-256 of the source: 07649e04b6c59373ab116ca8af7b2faed8d9a61e29c79d65e36b8c1cd681a5e5
 --
 -- When a switch asks for it, this script flies a plane onto the holding circle around its present target in least
 -- time, and then leaves the circle to ArduPlane: loiter_entry.md. It works by GUIDED_CHANGE_HEADING in GUIDED: the target
@@ -1285,7 +1285,7 @@ function law.end_entry_search(search)
 end
 
 -- The memory without a search.
-function law.end_search(planning)
+function law.drop_search(planning)
     return with_fields(planning, {search = law.end_entry_search(planning.search)})
 end
 
@@ -1482,7 +1482,7 @@ function law.begin_first_plan(planning, settings, limits, sensing)
     planning = with_fields(planning, {plan = law.plan_on_circle(settings, limits, planning.plan,
             law.relative_state(settings, present))})
     if planning.plan.route.side ~= 0 then
-        return law.end_search(planning)
+        return law.drop_search(planning)
     end
     if planning.search.aim ~= 0--[[NOTHING]] or not law.is_search_due(sensing.clock, planning.plan) then
         return planning
@@ -1838,7 +1838,7 @@ function law.update_plan(planning, settings, limits, sensing)
     local clock = sensing.clock
     if clock.since_s == 0.0 and clock.jump_s ~= 0.0 then
         planning = with_fields(planning, {plan = law.plan_by_clock(planning.plan, clock.jump_s)})
-        planning = law.end_search(planning)
+        planning = law.drop_search(planning)
     end
     if planning.plan.route.side == 0 then
         planning = law.begin_first_plan(planning, settings, limits, sensing)
@@ -1856,7 +1856,7 @@ function law.prepare(memory, settings, vehicle, measurement)
     memory = with_fields(memory, {sensing = law.sense(memory.sensing, vehicle, measurement, memory.step_s,
             smoothing_s, covered_s)})
     if not memory.sensing.is_known then
-        return with_fields(memory, {planning = law.end_search(memory.planning)})
+        return with_fields(memory, {planning = law.drop_search(memory.planning)})
     end
     if vehicle.revision ~= memory.limits.revision then
         local limits = law.limits_of(settings, vehicle, memory.limits)
@@ -2522,7 +2522,7 @@ end
 -- After the search for the first turn the one for the first plan follows.
 function law.take_entry(planning, settings, limits, sensing)
     local aim, state, entry = planning.search.aim, planning.search.state, law.found_entry(planning.search)
-    planning = law.end_search(planning)
+    planning = law.drop_search(planning)
     if entry.side == 0 then
         return planning
     end

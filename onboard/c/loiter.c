@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: b8a265b37ff760d3533a6a8f698d2491aacb1af645fb68c979c8f4700759c045
+ * SHA-256 of the source: 2d925d42daca4b8bc32e535c8cd845fedee153c697a4d51ca6a3e88a62224b56
  */
 #include "loiter.h"
 
@@ -1905,7 +1905,7 @@ static inline real time_of(const WindEntry *maneuver) {
 }
 
 /* The search with its result: the maneuver onto the circle, or that beside it if it is faster. */
-static inline void wind_search_end_search(WindSearch *search) {
+static inline void end_search(WindSearch *search) {
     const WindScene scene = search->scene;
     const EntryBeside beside = search->beside;
     WindEntry entry = wind_entry(&search->best, &scene);
@@ -1948,7 +1948,7 @@ static inline WindSearch begin_search(const WindProblem *problem) {
         }
     }
     if (search.best.side != 0) {
-        wind_search_end_search(&search);
+        end_search(&search);
         return search;
     }
     return search;
@@ -2538,7 +2538,7 @@ static inline CellVisit next_leaf(integer leaf) {
 static inline void next_stage(WindSearch *search) {
     const integer stage = search->stage + 1, side = -search->side;
     if (stage == ENDED) {
-        wind_search_end_search(search);
+        end_search(search);
         return;
     }
     CellVisit visit = FIRST_CELL;
@@ -2618,7 +2618,7 @@ static inline void refine_path(WindSearch *search) {
             next_stage(search);
             return;
         }
-        wind_search_end_search(search);
+        end_search(search);
         return;
     }
     if (search->stage <= COARSE_OTHER) {
@@ -4417,7 +4417,7 @@ static inline void end_entry_search(EntrySearch *search) {
 }
 
 /* The memory without a search. */
-static inline void plan_end_search(Planning *planning) {
+static inline void drop_search(Planning *planning) {
     end_entry_search(&planning->search);
     return;
 }
@@ -4611,7 +4611,7 @@ static inline void begin_first_plan(Planning *planning, const Settings *settings
     const RelativeState stored_1 = relative_state(settings, &present);
     planning->plan = plan_on_circle(settings, limits, &planning->plan, &stored_1);
     if (planning->plan.route.side != 0) {
-        plan_end_search(planning);
+        drop_search(planning);
         return;
     }
     if (planning->search.aim != NOTHING || !is_search_due(&sensing->clock, &planning->plan)) {
@@ -5014,7 +5014,7 @@ static inline void update_plan(Planning *planning, const Settings *settings, con
     const Clock clock = sensing->clock;
     if (clock.since_s == REAL(0.0) && clock.jump_s != REAL(0.0)) {
         plan_by_clock(&planning->plan, clock.jump_s);
-        plan_end_search(planning);
+        drop_search(planning);
     }
     if (planning->plan.route.side == 0) {
         begin_first_plan(planning, settings, limits, sensing);
@@ -5033,7 +5033,7 @@ static APART void prepare(Rings *rings, Memory *memory, const Settings *settings
     const real smoothing_s = settings->smoothing_s, covered_s = settings->covered_s;
     sense(rings, &memory->sensing, vehicle, measurement, memory->step_s, smoothing_s, covered_s);
     if (!memory->sensing.is_known) {
-        plan_end_search(&memory->planning);
+        drop_search(&memory->planning);
         return;
     }
     if (vehicle->revision != memory->limits.revision) {
@@ -5224,7 +5224,7 @@ static APART void take_entry(Planning *planning, const Settings *settings, const
     const integer aim = planning->search.aim;
     const RelativeState state = planning->search.state;
     const PlannedEntry entry = found_entry(&planning->search);
-    plan_end_search(planning);
+    drop_search(planning);
     if (entry.side == 0) {
         return;
     }

@@ -6,7 +6,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: b8a265b37ff760d3533a6a8f698d2491aacb1af645fb68c979c8f4700759c045
+ * SHA-256 of the source: 2d925d42daca4b8bc32e535c8cd845fedee153c697a4d51ca6a3e88a62224b56
  */
 #ifndef LOITER_ONBOARD_H
 #define LOITER_ONBOARD_H

@@ -16,7 +16,7 @@ from loiter.fences import ClearEntry, Fence, check, default_margin_m
 from loiter.fences.clear_entry import fastest_clear
 from loiter.guidance.entry.entry_planner import RelativeState, flight_velocity
 from loiter.guidance.entry.loiter_entry import LoiterEntry
-from loiter.guidance.entry.plan import Plan, Planning, end_search
+from loiter.guidance.entry.plan import Plan, Planning, drop_search
 from loiter.guidance.entry.route import (
     MOST_PIECES,
     NO_ROUTE,
@@ -278,7 +278,7 @@ class FencedEntry(LoiterEntry):
         )
         join_s = state.time_s + total_s
         present = Plan(route, route.current.time_s, join_s, join_s, planning.plan.searched_s)
-        self._planning = end_search(planning)._replace(path=path, plan=present)
+        self._planning = drop_search(planning)._replace(path=path, plan=present)
 
 
 @cache

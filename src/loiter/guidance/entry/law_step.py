@@ -15,7 +15,7 @@ from loiter.guidance.entry.limits import NO_LIMITS, Limits, Settings, is_other_r
 from loiter.guidance.entry.plan import (
     Planning,
     continue_search,
-    end_search,
+    drop_search,
     first_planning,
     forget_joining,
     forget_leads,
@@ -106,7 +106,7 @@ def prepare(memory: Memory, settings: Settings, vehicle: VehicleModel, measureme
     smoothing_s, covered_s = settings.smoothing_s, settings.covered_s
     memory = memory._replace(sensing=sense(memory.sensing, vehicle, measurement, memory.step_s, smoothing_s, covered_s))
     if not memory.sensing.is_known:
-        return memory._replace(planning=end_search(memory.planning))
+        return memory._replace(planning=drop_search(memory.planning))
     if vehicle.revision != memory.limits.revision:
         limits = limits_of(settings, vehicle, memory.limits)
         if is_other_roll(limits, memory.limits):

@@ -176,7 +176,7 @@ def update_plan(planning: Planning, settings: Settings, limits: Limits, sensing:
     clock = sensing.clock
     if clock.since_s == 0.0 and clock.jump_s != 0.0:
         planning = planning._replace(plan=plan_by_clock(planning.plan, clock.jump_s))
-        planning = end_search(planning)
+        planning = drop_search(planning)
     if planning.plan.route.side == 0:
         planning = begin_first_plan(planning, settings, limits, sensing)
     if planning.plan.route.side == 0:
@@ -206,7 +206,7 @@ def forget_joining(planning: Planning) -> Planning:
     return planning._replace(has_joined=False)
 
 
-def end_search(planning: Planning) -> Planning:
+def drop_search(planning: Planning) -> Planning:
     """The memory without a search."""
     return planning._replace(search=end_entry_search(planning.search))
 
@@ -222,7 +222,7 @@ def begin_first_plan(planning: Planning, settings: Settings, limits: Limits, sen
         plan=plan_on_circle(settings, limits, planning.plan, relative_state(settings, present))
     )
     if planning.plan.route.side != 0:
-        return end_search(planning)
+        return drop_search(planning)
     if planning.search.aim != NOTHING or not is_search_due(sensing.clock, planning.plan):
         return planning
     later = estimate_after(present, lead_s(limits, present.bank_deg, 0.0))
@@ -474,7 +474,7 @@ def take_entry(planning: Planning, settings: Settings, limits: Limits, sensing: 
     After the search for the first turn the one for the first plan follows.
     """
     aim, state, entry = planning.search.aim, planning.search.state, found_entry(planning.search)
-    planning = end_search(planning)
+    planning = drop_search(planning)
     if entry.side == 0:
         return planning
     present = sensing.present

@@ -59,11 +59,6 @@ class SlotEntry(LoiterEntry):
         """How far the slot is ahead of the aircraft on the circle, degrees; nan before there is a plan."""
         return degrees(self._kept.behind)
 
-    @property
-    def held_radius_m(self) -> float:
-        """The radius of the hold at present, metres."""
-        return self._kept.radius_m
-
     def phase_error_deg(self, time_s: float, east_m: float, north_m: float) -> float:
         """How far the slot is ahead of a place at a time, degrees in (-180, 180]."""
         s = self._settings
