@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from cmath import exp
 from collections.abc import Iterator, Sequence
+from itertools import pairwise
 from math import atan2, cos, hypot, pi, sqrt
 from typing import NamedTuple
 
@@ -145,18 +146,10 @@ def _adjoints_in_wind(
 ) -> Iterator[InitialAdjoint]:
     """All adjoints that the pieces may have."""
     pieces = list(flown_pieces(start, controls, durations, InitialAdjoint(1.0 + 0.0j, 1.0, 0.0)))
-    before = None
-    for piece in pieces:
-        if piece.u == 0:
-            yield vanishing_at(start, pieces, piece, piece.e, 1.0)
-        elif before is not None and (before.u != 0 or before.t <= SHORT):
+    yield from switch_adjoints(start, pieces)
+    for before, piece in pairwise(pieces):
+        if piece.u and (before.u or before.t <= SHORT):
             yield from _transversal(start, pieces, piece)
-        before = piece
-    if len(pieces) == 3:
-        _, middle, _ = pieces
-        if middle.u:
-            p = -middle.e * exp(0.5j * middle.u * middle.t)
-            yield vanishing_at(start, pieces, middle, p, -cos(0.5 * middle.t))
     if sum(piece.t > SHORT for piece in pieces) <= 1:
         yield from _of_single_arc(start, pieces)
 
@@ -184,6 +177,16 @@ def _end(start: RelativeStart, pieces: list[FlownPiece]) -> tuple[complex, float
     """The heading at the end, and the turn rate that holds the circle there."""
     *_, last = pieces
     return last.end.e, end_rate(start, last.end.q, last.end.e, last.u)
+
+
+def switch_adjoints(start: RelativeStart, pieces: list[FlownPiece]) -> Iterator[InitialAdjoint]:
+    """The adjoints along the straight pieces, and the one that two switches about an arc determine."""
+    for piece in pieces:
+        if piece.u == 0:
+            yield vanishing_at(start, pieces, piece, piece.e, 1.0)
+    if len(pieces) == 3 and pieces[1].u:
+        middle = pieces[1]
+        yield vanishing_at(start, pieces, middle, -middle.e * exp(0.5j * middle.u * middle.t), -cos(0.5 * middle.t))
 
 
 def vanishing_at(

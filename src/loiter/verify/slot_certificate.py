@@ -11,11 +11,10 @@ from __future__ import annotations
 from cmath import exp
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from math import cos, radians, sin
+from math import radians, sin
 
 from loiter.errors import instance, number, positive
 from loiter.kernel.rounding import ROUNDING, rounding
-from loiter.kernel.wind import fits
 from loiter.kernel.wind.elongation import possible_times
 from loiter.planning.arrival import placed_arrival
 from loiter.planning.maneuver import Maneuver
@@ -25,7 +24,7 @@ from loiter.planning.sides import directions, sign_of
 from loiter.planning.slot import Slot
 from loiter.planning.solve import arrivals
 from loiter.verify.accuracy import accuracy_in_wind
-from loiter.verify.adjoints import start_in_wind, vanishing_at
+from loiter.verify.adjoints import SHORT, start_in_wind, switch_adjoints, vanishing_at
 from loiter.verify.certificate import BASIS_VIOLATED, Certificate, certificate_values, switches_of
 from loiter.verify.conditions import IN_WIND, join, motion_residuals, turn
 from loiter.verify.slot_check import HeldCircle, LowerBound, SlotState, no_arrival_before, resolution
@@ -40,9 +39,6 @@ from loiter.verify.trajectory import (
     held_turn,
     word_of,
 )
-
-# A piece of at most this duration may be due to rounding alone: adjoints are then tried without it too.
-SHORT = fits.SHORT
 
 # The distance from the slot, in roundings of the scene's size, at which the kernel counts a double root as an arrival.
 DOUBLE_ROOT = 8.0
@@ -237,12 +233,7 @@ def _trajectory(maneuver: Maneuver, problem: Problem) -> Trajectory:
 def _adjoints(start: RelativeStart, controls: Sequence[int], durations: Sequence[float]) -> Iterator[InitialAdjoint]:
     """All adjoints that the pieces may have; one of many where fewer than two switches leave a choice."""
     pieces = list(flown_pieces(start, controls, durations, InitialAdjoint(1.0 + 0.0j, 1.0, 0.0)))
-    for piece in pieces:
-        if piece.u == 0:
-            yield vanishing_at(start, pieces, piece, piece.e, 1.0)
-    if len(pieces) == 3 and pieces[1].u:
-        middle = pieces[1]
-        yield vanishing_at(start, pieces, middle, -middle.e * exp(0.5j * middle.u * middle.t), -cos(0.5 * middle.t))
+    yield from switch_adjoints(start, pieces)
     if sum(piece.t > SHORT for piece in pieces) < 3:
         # A straight piece of no length, along the heading where the last piece begins.
         yield vanishing_at(start, pieces, pieces[-1], pieces[-1].e, 1.0)

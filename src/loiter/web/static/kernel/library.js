@@ -4224,17 +4224,9 @@ return RelativeStart(complex(x, y), complex(c, s), complex(wx, wy), R, side);
 }
 
 function* _adjoints(start, controls, durations) {
-let middle, piece, pieces;
+let pieces;
 pieces = list(flown_pieces(start, controls, durations, InitialAdjoint(add(1.0, new Complex(0.0, 0.0)), 1.0, 0.0)));
-for (piece of iter(pieces)) {
-if (eq(piece.u, 0)) {
-yield vanishing_at(start, pieces, piece, piece.e, 1.0);
-}
-}
-if ((eq(len(pieces), 3) && truth(item(pieces, 1).u))) {
-middle = item(pieces, 1);
-yield vanishing_at(start, pieces, middle, mul(neg(middle.e), cmath.exp(mul(mul(new Complex(0.0, 0.5), middle.u), middle.t))), neg(math.cos(mul(0.5, middle.t))));
-}
+yield* iter(switch_adjoints(start, pieces));
 if (lt(sum(list(iter(pieces)).map((piece) => gt(piece.t, SHORT))), 3)) {
 yield vanishing_at(start, pieces, item(pieces, -1), item(pieces, -1).e, 1.0);
 }
@@ -4901,27 +4893,15 @@ yield replace(plan, { adjoint: InitialAdjoint(complex(psi1, psi2), 1.0, kernel.s
 }
 
 function* _adjoints_in_wind(start, controls, durations) {
-let _, before, middle, p, piece, pieces;
+let before, piece, pieces;
 pieces = list(flown_pieces(start, controls, durations, InitialAdjoint(add(1.0, new Complex(0.0, 0.0)), 1.0, 0.0)));
-before = null;
-for (piece of iter(pieces)) {
-if (eq(piece.u, 0)) {
-yield vanishing_at(start, pieces, piece, piece.e, 1.0);
-} else {
-if (((before != null) && (ne(before.u, 0) || le(before.t, adjoints_SHORT)))) {
+yield* iter(switch_adjoints(start, pieces));
+for ([before, piece] of rows(pairwise(pieces))) {
+if ((truth(piece.u) && (truth(before.u) || le(before.t, SHORT)))) {
 yield* iter(_transversal(start, pieces, piece));
 }
 }
-before = piece;
-}
-if (eq(len(pieces), 3)) {
-[_, middle, _] = iter(pieces);
-if (truth(middle.u)) {
-p = mul(neg(middle.e), cmath.exp(mul(mul(new Complex(0.0, 0.5), middle.u), middle.t)));
-yield vanishing_at(start, pieces, middle, p, neg(math.cos(mul(0.5, middle.t))));
-}
-}
-if (le(sum(list(iter(pieces)).map((piece) => gt(piece.t, adjoints_SHORT))), 1)) {
+if (le(sum(list(iter(pieces)).map((piece) => gt(piece.t, SHORT))), 1)) {
 yield* iter(_of_single_arc(start, pieces));
 }
 }
@@ -5174,6 +5154,19 @@ this.phi = phi;
 
 }
 }, ["p", "lam", "phi"], 'InitialAdjoint');
+
+function* switch_adjoints(start, pieces) {
+let middle, piece;
+for (piece of iter(pieces)) {
+if (eq(piece.u, 0)) {
+yield vanishing_at(start, pieces, piece, piece.e, 1.0);
+}
+}
+if ((eq(len(pieces), 3) && truth(item(pieces, 1).u))) {
+middle = item(pieces, 1);
+yield vanishing_at(start, pieces, middle, mul(neg(middle.e), cmath.exp(mul(mul(new Complex(0.0, 0.5), middle.u), middle.t))), neg(math.cos(mul(0.5, middle.t))));
+}
+}
 
 function vanishing_at(start, pieces, piece, p, lam) {
 let elapsed;
@@ -7288,7 +7281,6 @@ const LARGEST_TURNS_RADIUS_M = 255.0;
 const FROM_EXIT = 1.0;
 const HEADING_REQUIRED = 1.0;
 const LATE = 1.0;
-const adjoints_SHORT = fits_SHORT;
 const SAMPLES = 9;
 const NO_FOLD = pow(2.0, -150);
 const MISS = 256.0;
