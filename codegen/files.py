@@ -163,7 +163,7 @@ ABOVE_KERNEL = (
     ("loiter.planning.compass", "heading_vector"),
     ("loiter.planning.maneuver", "Maneuver"),
     ("loiter.geo.frame", "LocalFrame"),
-    ("loiter.geo.placed", "PlacedProblem"),
+    ("loiter.io.document", "PlacedProblem"),
     ("loiter.arrays.partition", "_kind"),
     ("loiter.arrays.partition", "NARROW"),
     ("loiter.arrays.partition", "SHARE"),

@@ -10,8 +10,7 @@ from loiter.arrays.entries import BLOCK, UNKNOWN, States, entries
 from loiter.errors import LoiterError
 from loiter.kernel.statuses import Status
 from loiter.kernel.words import Side, Word
-from loiter.planning.model import TURN_LIMITS
-from loiter.planning.sides import SIDES
+from loiter.planning.model import SIDES, TURN_LIMITS
 
 LIMITS = {"max_bank_deg": (20.0, 50.0), "min_turn_radius_m": (20.0, 60.0), "max_turn_rate_deg_s": (15.0, 40.0)}
 # A local origin beside the circle, and coordinates of a map projection.

@@ -21,8 +21,7 @@ from loiter.evidence.checks.precision import (
 from loiter.kernel.entry import duration
 from loiter.kernel.still_air.synthesis import optimum
 from loiter.kernel.words import Side
-from loiter.planning.model import Turn
-from loiter.planning.sides import SIDES
+from loiter.planning.model import SIDES, Turn
 
 
 def test_doubles_keep_thirteen_digits_next_to_every_boundary():

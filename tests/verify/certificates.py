@@ -26,8 +26,8 @@ from loiter.kernel.entry import WIND_TIE_TOLERANCE, Entry
 from loiter.kernel.rounding import rounding
 from loiter.kernel.words import Word
 from loiter.planning.model import CONTROLS
+from loiter.planning.problem import maneuver as scaled
 from loiter.planning.problem import problem_of
-from loiter.planning.scaling import maneuver as scaled
 from loiter.verify import Certificate, certify
 
 UNIT = Aircraft(1.0, min_turn_radius_m=1.0)

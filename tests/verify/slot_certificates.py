@@ -23,10 +23,9 @@ from loiter.kernel.wind.slots import arrival_of
 from loiter.kernel.wind.wind_search import entry_of, scene_of
 from loiter.kernel.words import Word
 from loiter.planning.maneuver import Maneuver
-from loiter.planning.model import wind_from_velocity
+from loiter.planning.model import sign_of, wind_from_velocity
 from loiter.planning.problem import Problem, problem_of
-from loiter.planning.scaling import maneuver as scaled
-from loiter.planning.sides import sign_of
+from loiter.planning.problem import maneuver as scaled
 from loiter.planning.slot import phase_at_start
 from loiter.verify import certify_slot
 from loiter.verify.slot_check import resolution

@@ -15,8 +15,7 @@ from loiter.evidence.checks.wind_scan_check import random_problems
 from loiter.kernel.entry import Entry
 from loiter.kernel.wind import wind_search
 from loiter.kernel.wind.paths import first_path
-from loiter.planning.problem import Problem
-from loiter.planning.scaling import maneuver
+from loiter.planning.problem import Problem, maneuver
 from loiter.verify import certify
 from strategies import windy_scenes
 from verify.certificates import altered, at_windy_tie, certified, worst

@@ -11,8 +11,8 @@ from evidence import bridging
 from evidence.bridging import Answer, Case
 from loiter import Aircraft, Orbit, Pose, Wind, candidates, plan
 from loiter.kernel.words import Word
+from loiter.planning.model import SIDES
 from loiter.planning.problem import problem_of
-from loiter.planning.sides import SIDES
 from loiter.verify import certify
 from loiter.verify.rounding_bound import (
     BY_THEOREMS,

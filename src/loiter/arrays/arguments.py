@@ -11,8 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from loiter.errors import InvalidArgument
 from loiter.kernel.words import Side
-from loiter.planning.model import Turn
-from loiter.planning.sides import SIDES
+from loiter.planning.model import SIDES, Turn
 
 # Arguments whose results are NumPy arrays: numbers, nested sequences of numbers, and NumPy arrays.
 Numbers = Sequence[float] | Sequence[Sequence[float]] | Sequence[Sequence[Sequence[float]]]

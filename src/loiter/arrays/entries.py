@@ -22,14 +22,16 @@ from loiter.kernel.words import Side, Word
 from loiter.planning.compass import heading_after
 from loiter.planning.model import (
     CONTROLS,
+    TURNS,
     RelativeWind,
+    directions,
     position_after,
     radius_at_bank,
     radius_at_rate,
     relative_velocity,
+    sign_of,
     wind_velocity,
 )
-from loiter.planning.sides import TURNS, directions, sign_of
 from loiter.planning.slot import Slot, phase_at_start
 
 if TYPE_CHECKING:

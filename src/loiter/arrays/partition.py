@@ -37,6 +37,15 @@ LARGEST_GAP = 3.0
 # A first piece shorter than this next to a boundary vanishes on it: its length is NARROW or its square root.
 VANISHING = 1e-3
 
+# The kinds of boundaries, and what changes across them (`Boundary`).
+BOUNDARIES = {
+    "jump": "T jumps",
+    "same": "same first control",
+    "straight": "straight flight",
+    "switch": "switching curve",
+    "tie": "two controls tie",
+}
+
 
 class Partition(NamedTuple):
     """The optimum on a grid: `x` (nx,) and `y` (ny,) in turn radii, the rest (ny, nx): T, `Word` and `Side` codes."""

@@ -40,8 +40,7 @@ from loiter.batch.tables.types import convert
 from loiter.geo.frame import from_plane, to_plane
 from loiter.kernel.statuses import Status
 from loiter.planning.compass import wrapped
-from loiter.planning.model import Turn
-from loiter.planning.sides import SIDES
+from loiter.planning.model import SIDES, Turn
 from loiter.planning.units import NUMBER
 
 if TYPE_CHECKING:

@@ -33,9 +33,8 @@ from loiter.geo import LocalFrame
 from loiter.kernel.statuses import Status
 from loiter.kernel.words import Side, encode
 from loiter.planning.leg import Leg, LegPlan, plan_leg
-from loiter.planning.model import CONTROLS, Aircraft, Orbit, Pose, Wind
-from loiter.planning.sides import SIDES
-from loiter.planning.sides import TURNS as DIRECTIONS
+from loiter.planning.model import CONTROLS, SIDES, Aircraft, Orbit, Pose, Wind
+from loiter.planning.model import TURNS as DIRECTIONS
 from loiter.planning.solve import plan
 
 if TYPE_CHECKING:

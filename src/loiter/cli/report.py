@@ -21,8 +21,7 @@ from loiter.planning.flight import radius_of
 from loiter.planning.landing import LandingPlan
 from loiter.planning.leg import LegPlan
 from loiter.planning.maneuver import Maneuver, decimals_of
-from loiter.planning.model import Orbit, Pose, Segment
-from loiter.planning.vocabulary import ACTIONS
+from loiter.planning.model import ACTIONS, Orbit, Pose, Segment
 
 if TYPE_CHECKING:
     from loiter.fences import ClearEntry

@@ -12,8 +12,7 @@ from loiter.cli.sentences import argument_names
 from loiter.errors import InvalidArgument, RadiusTooSmall
 from loiter.geo import LocalFrame
 from loiter.geo.frame import degrees_of
-from loiter.geo.placed import PlacedProblem
-from loiter.io.document import maneuver_values
+from loiter.io.document import PlacedProblem, maneuver_values
 from loiter.io.missions.altitudes import MEAN_SEA_LEVEL, AltitudeDatum
 from loiter.planning.model import Aircraft, Orbit, Pose, Wind
 from loiter.planning.problem import Problem

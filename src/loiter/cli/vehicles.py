@@ -12,8 +12,7 @@ from types import FrameType
 from typing import TYPE_CHECKING
 
 from loiter.cli.report import json_value
-from loiter.planning.model import wind_from_velocity
-from loiter.planning.vocabulary import ACTIONS
+from loiter.planning.model import ACTIONS, wind_from_velocity
 
 if TYPE_CHECKING:
     from loiter.guidance.vehicle import VehicleEstimates

@@ -30,8 +30,8 @@ from loiter.kernel.wind.hold import phase_of
 from loiter.kernel.wind.paths import WindScene, first_path_of
 from loiter.kernel.wind.wind_search import WindProblem
 from loiter.kernel.words import ABSENT, controls, encode, set_of
+from loiter.planning.model import SIDES
 from loiter.planning.problem import Problem
-from loiter.planning.sides import SIDES
 
 # How far a chord may be from its part of a trochoid, metres: clear paths in wind are farther from a zone by this.
 CHORD_ERROR_M = 0.01

@@ -28,8 +28,7 @@ from loiter.fences.taut import least_length_m
 from loiter.planning.compass import heading_vector
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CALM, CONTROLS, Aircraft, Orbit, Pose, Segment, Turn, Wind
-from loiter.planning.problem import Problem
-from loiter.planning.scaling import segment
+from loiter.planning.problem import Problem, segment
 from loiter.planning.solve import extremals
 
 # The first search has one contact for each step of `contacts`; where it finds nothing, or nothing that is less than

@@ -20,8 +20,7 @@ from loiter.planning.compass import heading_vector
 from loiter.planning.flight import radius_of
 from loiter.planning.leg import LegPlan
 from loiter.planning.maneuver import Maneuver
-from loiter.planning.model import CONTROLS, Orbit, Segment, radius_in_turns, relative_wind
-from loiter.planning.sides import sign_of
+from loiter.planning.model import CONTROLS, Orbit, Segment, radius_in_turns, relative_wind, sign_of
 
 
 class Pieces(NamedTuple):

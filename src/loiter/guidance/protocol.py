@@ -8,8 +8,7 @@ from __future__ import annotations
 from enum import StrEnum
 from typing import NamedTuple, Protocol
 
-from loiter.planning.model import Turn
-from loiter.planning.vocabulary import ACTIONS
+from loiter.planning.model import ACTIONS, Turn
 
 
 class State(NamedTuple):

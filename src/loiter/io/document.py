@@ -1,15 +1,24 @@
-"""Answers as plain values for JSON: the values of `Maneuver.to_dict`, with places on Earth and alternatives."""
+"""Problems with the place on Earth of their coordinates, and their answers as plain values for JSON."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import partial
+from typing import NamedTuple
 
 from loiter.geo import LocalFrame
 from loiter.io.maps.places import DECIMALS
 from loiter.planning import maneuver as planned
 from loiter.planning.maneuver import Maneuver, pose_values
 from loiter.planning.model import Pose
+from loiter.planning.problem import Problem
+
+
+class PlacedProblem(NamedTuple):
+    """A problem in local metres, and their frame, which is None where no place was given in degrees."""
+
+    problem: Problem
+    frame: LocalFrame | None
 
 
 def answer(best: Sequence[Maneuver], others: Sequence[Maneuver], frame: LocalFrame | None = None) -> dict[str, object]:

@@ -13,10 +13,8 @@ from loiter.kernel.wind.elongation import Arrival, Ends, ThreeArcs, last_time, n
 from loiter.kernel.wind.hold import hold_pose, phase_of
 from loiter.planning.compass import heading_vector
 from loiter.planning.maneuver import Maneuver
-from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Segment, Turn, Wind
-from loiter.planning.problem import Problem
-from loiter.planning.scaling import segment
-from loiter.planning.sides import directions
+from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Segment, Turn, Wind, directions
+from loiter.planning.problem import Problem, segment
 
 # Longer paths, in turn radii, would end beside the place by more than 1e-9 of their length.
 LONGEST = 1e6

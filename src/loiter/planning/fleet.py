@@ -15,10 +15,8 @@ from loiter.kernel.wind import wind_search
 from loiter.kernel.wind.held import time_held
 from loiter.kernel.wind.hold import hold_pose
 from loiter.planning.maneuver import Maneuver
-from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, Wind
-from loiter.planning.problem import Problem, problem_of
-from loiter.planning.scaling import maneuver
-from loiter.planning.sides import directions, sign_of
+from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, Wind, directions, sign_of
+from loiter.planning.problem import Problem, maneuver, problem_of
 from loiter.planning.slot import Slot, phase_at_start
 
 if TYPE_CHECKING:

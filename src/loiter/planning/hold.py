@@ -12,6 +12,7 @@ from loiter.planning.compass import heading_of, heading_vector, wrapped
 from loiter.planning.flight import over_ground
 from loiter.planning.model import (
     CALM,
+    SIDES,
     Aircraft,
     Orbit,
     Turn,
@@ -21,7 +22,6 @@ from loiter.planning.model import (
     radius_in_turns,
     relative_wind,
 )
-from loiter.planning.sides import SIDES
 
 if TYPE_CHECKING:
     from numpy import float64

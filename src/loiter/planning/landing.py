@@ -11,8 +11,18 @@ from loiter.kernel.rounding import ROUNDING
 from loiter.planning.compass import heading_vector
 from loiter.planning.leg import SAME_TIME, Leg, LegPlan, plan_leg
 from loiter.planning.maneuver import decimals_of
-from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, TurnName, Wind, circle_radius_m
-from loiter.planning.sides import directions, sign_of
+from loiter.planning.model import (
+    CALM,
+    Aircraft,
+    Orbit,
+    Pose,
+    Turn,
+    TurnName,
+    Wind,
+    circle_radius_m,
+    directions,
+    sign_of,
+)
 
 if TYPE_CHECKING:
     from numpy import float64

@@ -17,10 +17,19 @@ from loiter.kernel.wind.wind_search import scene_of
 from loiter.planning.arrival import arrival_in
 from loiter.planning.compass import heading_of
 from loiter.planning.maneuver import MAX_SAMPLES, Maneuver, decimals_of, maneuver_values, pose_values
-from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, Wind, radius_in_turns, relative_wind
-from loiter.planning.problem import Problem
-from loiter.planning.scaling import maneuver
-from loiter.planning.sides import directions, sign_of
+from loiter.planning.model import (
+    CALM,
+    Aircraft,
+    Orbit,
+    Pose,
+    Turn,
+    Wind,
+    directions,
+    radius_in_turns,
+    relative_wind,
+    sign_of,
+)
+from loiter.planning.problem import Problem, maneuver
 
 if TYPE_CHECKING:
     from numpy import float64

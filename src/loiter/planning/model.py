@@ -35,8 +35,10 @@ AnyTime = TypeVar("AnyTime")
 
 STANDARD_GRAVITY_M_S2 = 9.80665  # exact by definition (3rd CGPM, 1901)
 
-# The control u of each letter: +1 turns left.
+# The control u of each letter, +1 turns left, and what the pilot does then, also in one word where space is short.
 CONTROLS = {"L": 1, "S": 0, "R": -1}
+ACTIONS = {"L": "turn left", "S": "fly straight", "R": "turn right"}
+BRIEF_ACTIONS = {"L": "left", "S": "straight", "R": "right"}
 
 
 def radius_at_bank(airspeed_m_s: float, bank_deg: float) -> float:
@@ -81,6 +83,21 @@ class Turn(StrEnum):
     def described(self) -> str:
         """The direction in words: "clockwise", "counter-clockwise" or "either way"."""
         return {Turn.CW: "clockwise", Turn.CCW: "counter-clockwise"}.get(self, "either way")
+
+
+# The kernel's codes of directions, and back.
+SIDES = {Turn.CW: Side.CW, Turn.CCW: Side.CCW, Turn.EITHER: Side.EITHER}
+TURNS = {side: turn for turn, side in SIDES.items()}
+
+
+def directions(turn: Turn) -> tuple[Turn, ...]:
+    """The directions in which a circle may be held: one, or both for *either*."""
+    return (Turn.CW, Turn.CCW) if turn is Turn.EITHER else (turn,)
+
+
+def sign_of(turn: Turn) -> int:
+    """The sign of a direction as a plain number, for formulas: +1 clockwise, -1 counter-clockwise, 0 for either."""
+    return int(SIDES[turn])
 
 
 def _keep(value: object, **fields: float | Turn) -> None:

@@ -1,27 +1,33 @@
-"""One planning problem in SI, and its conversion to the kernel's units: division by turn radius and airspeed."""
+"""One planning problem in SI: its conversion to the kernel's units, and that of the kernel's answers to SI."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from math import inf
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from loiter.errors import LoiterError, OutOfRange, RadiusTooSmall, instance, not_negative
 from loiter.kernel import motion
+from loiter.kernel.entry import Entry
 from loiter.kernel.rounding import REACH, rounded_radius
 from loiter.kernel.statuses import Status
 from loiter.kernel.still_air.synthesis import status_of
 from loiter.kernel.wind import wind_search
 from loiter.kernel.wind.wind_search import WindProblem
-from loiter.kernel.words import Side
+from loiter.kernel.words import Side, Word
 from loiter.planning.compass import heading_vector
 from loiter.planning.flight import flown_from
+from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import (
     CALM,
+    CONTROLS,
+    SIDES,
+    TURNS,
     Aircraft,
     Orbit,
     Pose,
     RelativeWind,
+    Segment,
     Turn,
     Wind,
     check_held,
@@ -29,10 +35,6 @@ from loiter.planning.model import (
     relative_wind,
     too_tight,
 )
-from loiter.planning.sides import SIDES
-
-if TYPE_CHECKING:
-    from loiter.planning.maneuver import Maneuver
 
 
 class ReducedProblem(NamedTuple):
@@ -155,3 +157,25 @@ class Problem:
 def problem_of(maneuver: Maneuver, tolerance_m: float = 0.0) -> Problem:
     """The problem that a maneuver answers, planned with a tolerance (metres)."""
     return Problem(maneuver.start, maneuver.orbit, maneuver.aircraft, maneuver.wind, tolerance_m)
+
+
+def maneuver(problem: Problem, entry: Entry, miss: float) -> Maneuver:
+    """The kernel's answer to a problem, in SI; `miss` is its distance from the tangent point, in turn radii."""
+    aircraft, wind = problem.aircraft, problem.wind
+    segments: list[Segment] = []
+    here, now = problem.pose, 0.0
+    for letter, t in zip(Word(entry.word).letters, entry[2:], strict=False):
+        r = aircraft.turn_radius_m
+        segments.append(segment(here, now, letter, t * r, aircraft, wind, r))
+        here, now = segments[-1].end, now + segments[-1].duration_s
+    miss_m = miss * aircraft.turn_radius_m
+    return Maneuver(problem.pose, problem.orbit, aircraft, TURNS[Side(entry.side)], tuple(segments), miss_m, wind)
+
+
+def segment(
+    start: Pose, start_s: float, letter: str, length_m: float, aircraft: Aircraft, wind: Wind, radius_m: float
+) -> Segment:
+    """A piece of a maneuver from a pose, flown with a radius, metres."""
+    u = CONTROLS[letter]
+    end = flown_from(start, u, length_m, aircraft, wind, radius_m)
+    return Segment(letter, start_s, length_m / aircraft.airspeed_m_s, length_m, u / radius_m, start, end)

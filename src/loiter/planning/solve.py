@@ -12,10 +12,8 @@ from loiter.kernel.still_air.synthesis import optima, ranked
 from loiter.kernel.wind import wind_search
 from loiter.kernel.wind.wind_search import WindEntry, WindProblem
 from loiter.planning.maneuver import Maneuver
-from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, Wind
-from loiter.planning.problem import Problem
-from loiter.planning.scaling import maneuver
-from loiter.planning.sides import directions
+from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, Wind, directions
+from loiter.planning.problem import Problem, maneuver
 from loiter.planning.slot import Slot, phase_at_start
 
 

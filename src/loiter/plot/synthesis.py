@@ -13,10 +13,9 @@ from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
 from numpy.typing import NDArray
 
-from loiter.arrays.partition import Boundary, Partition, lines, worth
+from loiter.arrays.partition import BOUNDARIES, Boundary, Partition, lines, worth
 from loiter.kernel.words import Word
 from loiter.planning.model import Turn
-from loiter.planning.vocabulary import BOUNDARIES
 
 # The hue of a region shows its first control (as in the plan view); shades distinguish words with the same first
 # control.

@@ -20,9 +20,8 @@ from loiter.kernel.rounding import rounding
 from loiter.kernel.wind import fits
 from loiter.kernel.words import encode
 from loiter.planning.maneuver import Maneuver
-from loiter.planning.model import CONTROLS
+from loiter.planning.model import CONTROLS, sign_of
 from loiter.planning.problem import Problem
-from loiter.planning.sides import sign_of
 from loiter.verify.trajectory import (
     FlownPiece,
     InitialAdjoint,

@@ -8,8 +8,8 @@ from typing import NamedTuple
 from loiter.kernel.rounding import ROUNDING, rounding
 from loiter.kernel.still_air.extremals import lrl_quadratic, start_at
 from loiter.planning.maneuver import Maneuver
+from loiter.planning.model import SIDES
 from loiter.planning.problem import Problem
-from loiter.planning.sides import SIDES
 from loiter.planning.solve import fastest
 
 BY_THEOREMS = "docs/bridging.md, theorems 5 and 6, for the reduced state"

@@ -18,9 +18,8 @@ from loiter.kernel.rounding import ROUNDING, rounding
 from loiter.kernel.wind.elongation import possible_times
 from loiter.planning.arrival import placed_arrival
 from loiter.planning.maneuver import Maneuver
-from loiter.planning.model import CONTROLS, Turn
+from loiter.planning.model import CONTROLS, Turn, directions, sign_of
 from loiter.planning.problem import Problem, problem_of
-from loiter.planning.sides import directions, sign_of
 from loiter.planning.slot import Slot
 from loiter.planning.solve import arrivals
 from loiter.verify.accuracy import accuracy_in_wind

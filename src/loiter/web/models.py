@@ -12,7 +12,7 @@ from pydantic import BaseModel, ConfigDict, Field, Strict, field_validator
 from pydantic.json_schema import SkipJsonSchema
 
 from loiter.geo import LocalFrame
-from loiter.geo.placed import PlacedProblem
+from loiter.io.document import PlacedProblem
 from loiter.io.missions.items import AutopilotName
 from loiter.planning import model
 from loiter.planning.model import TurnName

@@ -39,8 +39,8 @@ from loiter.io.missions.items import Autopilot, Mission
 from loiter.io.missions.mission import own_loiter_remark
 from loiter.mavlink.connection.link import TIMEOUT_S, check_target
 from loiter.planning.compass import wrapped
+from loiter.planning.model import BRIEF_ACTIONS
 from loiter.planning.solve import fastest
-from loiter.planning.vocabulary import BRIEF_ACTIONS
 
 if TYPE_CHECKING:
     from loiter.mavlink import Report

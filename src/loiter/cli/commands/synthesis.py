@@ -8,13 +8,12 @@ import numpy as np
 from cyclopts import Parameter
 from rich.table import Table
 
-from loiter.arrays.partition import Boundary, Partition, boundaries, partition
+from loiter.arrays.partition import BOUNDARIES, Boundary, Partition, boundaries, partition
 from loiter.cli import report
 from loiter.cli.numbers import turn_name, whole
 from loiter.cli.options import MapPictureOptions, output
 from loiter.errors import InvalidArgument
 from loiter.planning.model import TurnName
-from loiter.planning.vocabulary import BOUNDARIES
 from loiter.writing import write_whole
 
 

@@ -12,8 +12,7 @@ from loiter.evidence.checks.collocation import CollocatedPath, check_installed, 
 from loiter.evidence.checks.oracle import Circle
 from loiter.evidence.checks.oracle_check import CheckProblem, start_about
 from loiter.planning.maneuver import Maneuver
-from loiter.planning.model import Aircraft, Orbit, Pose, Turn
-from loiter.planning.sides import directions
+from loiter.planning.model import Aircraft, Orbit, Pose, Turn, directions
 from loiter.planning.solve import plan_all
 
 AIRCRAFT = Aircraft(18.0, min_turn_radius_m=50.0)

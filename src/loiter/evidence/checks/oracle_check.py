@@ -9,8 +9,7 @@ from random import Random
 
 from loiter.errors import InvalidArgument, check_installed
 from loiter.evidence.checks.oracle import Circle, OraclePath, Planar, Search, from_compass
-from loiter.planning.model import Aircraft, Orbit, Pose, Turn
-from loiter.planning.sides import directions
+from loiter.planning.model import Aircraft, Orbit, Pose, Turn, directions
 from loiter.planning.solve import plan
 
 # The resolution of the search, over turn radius plus length. The end of OMPL's path and its moved start are accurate to

@@ -31,9 +31,8 @@ from loiter.kernel.angles import length
 from loiter.kernel.words import ABSENT, Side
 from loiter.planning.compass import heading_of
 from loiter.planning.maneuver import Maneuver
-from loiter.planning.model import CONTROLS, Aircraft, Orbit, Pose, Segment, Wind, wind_from_velocity
-from loiter.planning.scaling import segment
-from loiter.planning.sides import TURNS, sign_of
+from loiter.planning.model import CONTROLS, TURNS, Aircraft, Orbit, Pose, Segment, Wind, sign_of, wind_from_velocity
+from loiter.planning.problem import segment
 from loiter.planning.solve import plan
 
 # Seconds between checks of the present path, and from one search for a clear entry to the next.

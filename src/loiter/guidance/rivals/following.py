@@ -24,8 +24,8 @@ from loiter.planning.model import (
     Wind,
     check_held,
     relative_wind,
+    sign_of,
 )
-from loiter.planning.sides import sign_of
 from loiter.planning.solve import plan
 
 # In this band these laws report `HOLD`.

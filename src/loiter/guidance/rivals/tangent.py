@@ -28,8 +28,7 @@ from loiter.kernel.wind.paths import first_path
 from loiter.kernel.wind.wind_search import WindProblem
 from loiter.kernel.words import ABSENT, controls
 from loiter.planning.compass import heading_vector
-from loiter.planning.model import Aircraft, Orbit, Turn, Wind, relative_wind
-from loiter.planning.sides import sign_of
+from loiter.planning.model import Aircraft, Orbit, Turn, Wind, relative_wind, sign_of
 
 # Planned arcs are wider than the tightest turn by this share, to leave turn rate for corrections.
 RESERVE = 0.1

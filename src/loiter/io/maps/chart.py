@@ -10,8 +10,7 @@ from loiter.io.maps.places import degrees, true_headings
 from loiter.io.maps.track import circle_polygon, step_counts, vertices
 from loiter.io.missions.mission import BEND_PER_M, LEAST_EARTH_RADIUS_M
 from loiter.planning.maneuver import Maneuver
-from loiter.planning.model import Orbit, Samples, Segment
-from loiter.planning.vocabulary import ACTIONS
+from loiter.planning.model import ACTIONS, Orbit, Samples, Segment
 
 # The bend of map lines grows without bound towards a pole; beyond this latitude it is kept constant.
 LARGEST_LATITUDE_DEG = 89.99

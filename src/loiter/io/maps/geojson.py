@@ -11,7 +11,7 @@ from typing import Any
 
 from loiter.io.maps.antimeridian import Position, cut_line, cut_ring
 from loiter.io.maps.chart import Chart, Mark, SegmentLine
-from loiter.planning.vocabulary import ACTIONS
+from loiter.planning.model import ACTIONS
 
 # 1e-9 degrees are 0.1 mm.
 DECIMALS = 9

@@ -28,8 +28,7 @@ from loiter.guidance.vehicle import VehicleEstimates, clip
 from loiter.mavlink.guiding.settling import MeanPosition
 from loiter.mavlink.missions.flown_radius import loiter_scaling
 from loiter.planning.hold import hold
-from loiter.planning.model import Aircraft, Orbit, wind_from_velocity
-from loiter.planning.sides import sign_of
+from loiter.planning.model import Aircraft, Orbit, sign_of, wind_from_velocity
 
 # ArduPlane's parameters for the period of its guidance, seconds, and its damping, with the default of the latter.
 PERIOD, DAMPING, DEFAULT_DAMPING = "NAVL1_PERIOD", "NAVL1_DAMPING", 0.75

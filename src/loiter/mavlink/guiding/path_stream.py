@@ -26,8 +26,7 @@ from loiter.mavlink.connection.streams import watch_streams
 from loiter.mavlink.connection.telemetry import Telemetry
 from loiter.planning.compass import heading_vector
 from loiter.planning.maneuver import Maneuver
-from loiter.planning.model import Pose
-from loiter.planning.sides import sign_of
+from loiter.planning.model import Pose, sign_of
 
 # POSITION_TARGET_TYPEMASK: yaw and yaw rate are ignored; the frame MAV_FRAME_GLOBAL_INT.
 NO_YAW, GLOBAL_INT = 0xC00, 5

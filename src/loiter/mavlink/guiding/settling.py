@@ -8,8 +8,7 @@ from typing import NamedTuple
 from loiter.guidance.circle import Band, CircleOffset, circle_offset
 from loiter.guidance.protocol import State
 from loiter.guidance.vehicle import rate_at_bank
-from loiter.planning.model import Orbit
-from loiter.planning.sides import sign_of
+from loiter.planning.model import Orbit, sign_of
 
 # The band, and how long and how far the vehicle must stay in it, seconds and degrees around the circle.
 BAND, STAY_S, STAY_DEG = Band(), 8.0, 90.0

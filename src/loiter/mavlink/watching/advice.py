@@ -13,8 +13,7 @@ from loiter.guidance.circle import Band, CircleOffset, circle_offset
 from loiter.guidance.protocol import State
 from loiter.planning.compass import heading_vector
 from loiter.planning.maneuver import Maneuver
-from loiter.planning.model import Turn
-from loiter.planning.sides import sign_of
+from loiter.planning.model import Turn, sign_of
 
 # Segments shorter than SHORT_S seconds are not advised: banking takes about as long. The current action is advised
 # until less than LEFT_S is left of it, so that noise does not make the advice alternate.

@@ -8,8 +8,7 @@ from typing import Any
 from loiter.errors import InvalidArgument
 from loiter.fences.clear_entry import ClearEntry, fastest_clear
 from loiter.fences.fence import Fence, check
-from loiter.geo.placed import PlacedProblem
-from loiter.io.document import maneuver_values
+from loiter.io.document import PlacedProblem, maneuver_values
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.slot import Slot
 from loiter.web.answers.plans import first_maneuver

@@ -10,8 +10,7 @@ import numpy as np
 from loiter.arrays import reduce
 from loiter.errors import InvalidArgument
 from loiter.fences.fence import Fence, check
-from loiter.geo.placed import PlacedProblem
-from loiter.io.document import maneuver_values
+from loiter.io.document import PlacedProblem, maneuver_values
 from loiter.io.legs import leg_text
 from loiter.io.missions.items import Autopilot
 from loiter.planning.leg import SAME_TIME, HoldState, Leg, LegPlan, climb_time_s, hold_states, plan_leg

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from loiter.geo.placed import PlacedProblem
-from loiter.io.document import answer, maneuver_values
+from loiter.io.document import PlacedProblem, answer, maneuver_values
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.problem import Problem
 from loiter.planning.slot import Slot

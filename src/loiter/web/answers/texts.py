@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from loiter.planning.leg import Leg, LegPlan
 from loiter.planning.maneuver import Maneuver
-from loiter.planning.model import CALM, TURN_LIMITS, Aircraft, Orbit, Turn
+from loiter.planning.model import ACTIONS, CALM, TURN_LIMITS, Aircraft, Orbit, Turn
 from loiter.planning.problem import Problem
 from loiter.planning.slot import Slot
-from loiter.planning.vocabulary import ACTIONS
 
 # The options of `loiter plan` for what a scene has.
 OPTIONS = {

@@ -10,8 +10,7 @@ from loiter.io.maps.track import step_counts, vertices
 from loiter.kernel.wind.hold import hold_pose, phase_of
 from loiter.planning.compass import heading_of
 from loiter.planning.maneuver import Maneuver
-from loiter.planning.model import radius_in_turns, relative_wind
-from loiter.planning.sides import SIDES
+from loiter.planning.model import SIDES, radius_in_turns, relative_wind
 
 # Largest chord error, turn radii: a pixel on a screen that shows the turn radius as 500 pixels.
 CHORD_ERROR = 0.002
