@@ -18,8 +18,7 @@ import numpy as np
 from MAVProxy.modules.lib import mp_module, mp_settings, mp_util
 from pymavlink import mavutil
 
-from loiter.cli.commands.mavlink import line as watch_line
-from loiter.cli.vehicles import line as guide_line
+from loiter.cli.vehicles import guide_line, watch_line
 from loiter.errors import InvalidArgument, LoiterError
 from loiter.geo import LocalFrame, true_airspeed
 from loiter.io.missions.items import Mission

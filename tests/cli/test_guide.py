@@ -11,7 +11,7 @@ from types import SimpleNamespace
 import pytest
 
 from loiter.cli.app import main
-from loiter.cli.vehicles import line
+from loiter.cli.vehicles import guide_line
 from loiter.guidance.protocol import Phase, State
 from loiter.guidance.vehicle import Roll
 from loiter.io.flight_log import LogRow
@@ -289,11 +289,11 @@ def test_a_line_says_what_is_known():
         12.04, Stage.JOINING, state, 600.0, -20.0, phase=Phase.STRAIGHT, time_to_join_s=8.2, turn=Turn.CCW,
         command_deg=0.3, crosstrack_m=-1.26, outside_m=90.0, rate_hz=39.6, age_s=0.0131, estimates=known,
     )  # fmt: skip
-    assert line(report) == (
+    assert guide_line(report) == (
         "  12.0 s: joining counter-clockwise in 8.2 s; bank 0 of 0 deg; 600 m, 20 below home; "
         "1.3 m right of path; wind 5.0 m/s from 307"
     )
-    assert line(report._replace(crosstrack_m=0.01, estimates=None)).endswith("; on path")
+    assert guide_line(report._replace(crosstrack_m=0.01, estimates=None)).endswith("; on path")
     holding = report._replace(stage=Stage.HOLDING, phase=Phase.HOLD, outside_m=-2.0, time_to_join_s=0.0)
-    assert "holding counter-clockwise; bank 0 of 0 deg; 600 m, 20 below home; 2.0 m inside; " in line(holding)
-    assert line(GuideReport(1.0, Stage.FALL_BACK)) == "   1.0 s: fall-back circle"
+    assert "holding counter-clockwise; bank 0 of 0 deg; 600 m, 20 below home; 2.0 m inside; " in guide_line(holding)
+    assert guide_line(GuideReport(1.0, Stage.FALL_BACK)) == "   1.0 s: fall-back circle"

@@ -63,7 +63,7 @@ add_command(
 It needs a start (--pose), a circle (--orbit), the airspeed, and one limit on the turn (--bank, --turn-radius or --turn-rate). Everything else is optional.""",
 )
 add_command(
-    "leg:leg",
+    "legs:leg",
     planning,
     1,
     """Plan the fastest way in, round and out of a holding circle: the entry, how long to hold, and where to leave.
@@ -79,7 +79,7 @@ add_command(
 FILE is a CSV file with a row for each aircraft: its position and heading, in the columns of loiter batch, and a name if it has a column name. They are of one kind, and share the circle, the airspeed, the turn limit and the wind. Their slots pass a place at equal intervals; which aircraft takes which slot brings the last one in soonest.""",
 )
 add_command(
-    "land:land",
+    "legs:land",
     planning,
     3,
     """Plan the fastest landing by a circle beside the final approach: the entry, the way down, and the approach.

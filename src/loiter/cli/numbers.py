@@ -1,11 +1,11 @@
-"""Quantities on the command line, a parser for each kind: with a unit (35kn, 3000ft), as directions (90T, 87M)."""
+"""Quantities on the command line, a parser for each kind: with units (35kn), directions (87M), places (47°06'N)."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping, Sequence
 from itertools import chain, repeat
-from typing import get_args
+from typing import NamedTuple, get_args
 
 from cyclopts import CoercionError, Token
 
@@ -37,11 +37,32 @@ TURN_WORDS = {
     "anticlockwise": "ccw",
 }
 
+Reader = Callable[[Token], float]
+Converter = Callable[[object, Sequence[Token]], object]
+
 # The minus sign of typeset text. `cli.arguments` puts it in place of the hyphen of -10ft, which looks like an option.
 MINUS = "\N{MINUS SIGN}"
 
-Reader = Callable[[Token], float]
-Converter = Callable[[object, Sequence[Token]], object]
+# Other ways to write the marks of degrees, minutes and seconds, in upper case.
+MARKS = {"DEG": "°", "D": "°", "º": "°", "''": '"', "″": '"', "”": '"', "“": '"', "′": "'", "’": "'"}
+
+# Degrees, minutes and seconds, of which the latter may be absent and are below 60.
+DEGREES, UNDER_60 = r"(\d+(?:\.\d*)?|\.\d+)", r"([0-5]?\d(?:\.\d*)?)"
+ANGLE = re.compile(rf"([+-]?){DEGREES}\s*°?(?:[:\s]?\s*{UNDER_60}\s*'?(?:[:\s]?\s*{UNDER_60}\s*\"?)?)?")
+PLACE = re.compile(r"([NSEW]?)\s*(.*?)\s*([NSEW]?)")
+
+
+class Coordinate(NamedTuple):
+    """A coordinate of a place: its name, the letters of its positive and its negative hemisphere, and examples."""
+
+    name: str
+    positive: str
+    negative: str
+    example: str
+
+
+LATITUDE = Coordinate("latitude", "N", "S", "47.1N, 47°06'N or 47:06:00N")
+LONGITUDE = Coordinate("longitude", "E", "W", "8.2E, 8°12'E or 8:12:00E")
 
 
 class FlightLevel(float):
@@ -140,6 +161,16 @@ def millimetres(token: Token) -> float:
     return _with_unit(token, typed(token), LENGTHS_ON_PAPER, need)
 
 
+def latitude(token: Token) -> float:
+    """A latitude in degrees: 47.1, 47.1N or 47°06'N."""
+    return _coordinate(token, LATITUDE)
+
+
+def longitude(token: Token) -> float:
+    """A longitude in degrees: 8.2, 8.2E or 8°12'E."""
+    return _coordinate(token, LONGITUDE)
+
+
 def one(read: Reader) -> Converter:
     """The converter of an option with one number."""
 
@@ -221,3 +252,37 @@ def _with_unit(token: Token, text: str, units: Mapping[str, float], need: str) -
         return parse_number(digits.strip()) * factor
     except ValueError as error:
         raise refusal(token, need) from error
+
+
+def _coordinate(token: Token, coordinate: Coordinate) -> float:
+    """Degrees of a latitude or longitude; a letter of the other coordinate shows that the two are swapped."""
+    try:
+        return parse_number(typed(token))
+    except ValueError:
+        first, text, last = _hemispheres(typed(token))
+    match, letter = ANGLE.fullmatch(text), first or last
+    sign, *parts = [part for part in match.groups() if part is not None] if match else [""]
+    *whole, _ = parts or [""]
+    # Only the last part may have decimals.
+    if not parts or (first and last) or "." in "".join(whole):
+        raise refusal(token, f"it must be a {coordinate.name} in degrees, or like {coordinate.example}")
+    if letter not in ("", coordinate.positive, coordinate.negative):
+        letters = f"{coordinate.positive} or {coordinate.negative}"
+        raise refusal(token, f"a {coordinate.name} has {letters}; the latitude comes first, then the longitude")
+    if sign == "-" and letter:
+        size = text.removeprefix(sign)
+        other = f" or -{size}" if letter == coordinate.negative else f", or -{size} for the other hemisphere"
+        raise refusal(token, f"it has a sign and a hemisphere: write {size}{letter}{other}")
+    degrees = sum(float(part) / size for part, size in zip(parts, (1.0, 60.0, 3600.0), strict=False))
+    return -degrees if sign == "-" or letter == coordinate.negative else degrees
+
+
+def _hemispheres(text: str) -> tuple[str, str, str]:
+    """The letter before an angle, the angle with plain marks, and the letter after it; an absent letter is empty."""
+    plain = text.upper()
+    for mark, usual in MARKS.items():
+        plain = plain.replace(mark, usual)
+    match = PLACE.fullmatch(plain)
+    assert match is not None  # the pattern matches any line
+    first, angle, last = match.groups()
+    return first, angle, last

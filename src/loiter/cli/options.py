@@ -6,13 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from cyclopts import Group, Parameter
-from rich.console import RenderableType
 
-from loiter.cli import report
-from loiter.cli.coordinates import latitude, longitude
 from loiter.cli.numbers import (
     FlightLevel,
     altitude,
@@ -20,6 +17,8 @@ from loiter.cli.numbers import (
     check_declination,
     declination,
     direction,
+    latitude,
+    longitude,
     metres,
     metres_per_second,
     millimetres,
@@ -40,22 +39,16 @@ from loiter.plot import files
 from loiter.plot.sizes import PictureFormat
 
 if TYPE_CHECKING:
-    from loiter.fences import Fence, PlacedFence
     from loiter.io.missions.parameters import Preset
     from loiter.io.missions.site import Site
-    from loiter.mavlink.guiding.preparation import OwnFence
 
 scene = Group("Scene", sort_key=1)
 aircraft = Group("Aircraft: the airspeed and exactly one limit on the turn", sort_key=2)
 vehicle_limits = Group("Aircraft: what is absent comes from the vehicle's parameters", sort_key=2)
 air = Group("Wind, and circles that move", sort_key=3)
+way_out = Group("The way out", sort_key=4)
 output = Group("Output", sort_key=5)
 missions = Group("Missions", sort_key=6)
-
-# The problem of a fence in metres where places are in degrees.
-METRES_ONLY = (
-    "is a table in local metres, which goes with --pose and --orbit: give a file with latitudes and longitudes"
-)
 
 # Default chord error, metres, the same as that of the library.
 CHORD_ERROR_M = 1.0
@@ -129,6 +122,9 @@ AutopilotChoice = Annotated[
     AutopilotName, Parameter(group=missions, help="The autopilot that missions are for. PX4 takes .plan only.")
 ]
 Json = Annotated[bool, Parameter(group=output, help="Print one JSON object.")]
+Rate = Annotated[float | None, Parameter(group=way_out, converter=one(metres_per_second), metavar="M_PER_S")]
+ClimbRate = Annotated[Rate, Parameter(help="Rate at which it climbs.")]
+DescentRate = Annotated[Rate, Parameter(help="Rate at which it descends.")]
 
 
 def column_map(group: Group) -> Parameter:
@@ -364,7 +360,7 @@ class AircraftOptions:
 
         return read_parameters(self.params)
 
-    def above_sea(self, preset: Preset | None, datum: AltitudeDatum) -> AircraftOptions:
+    def above_sea(self, datum: AltitudeDatum) -> AircraftOptions:
         """The same options with the altitude above mean sea level, if an indicated airspeed needs it.
 
         Raises `InvalidArgument` where that altitude is unknown.
@@ -375,25 +371,28 @@ class AircraftOptions:
             return self
         if datum.reference != AltitudeReference.MSL:
             written_altitude(self.altitude)
-        if self.indicated(preset) is None:
+        if self.indicated_m_s is None:
             return self
         return replace(self, altitude=datum.above_sea_m(self.altitude))
 
-    def aircraft(self, preset: Preset | None) -> Aircraft:
+    @property
+    def aircraft(self) -> Aircraft:
         """The aircraft; options take precedence over the parameter file."""
         limits = {
-            "max_bank_deg": self._bank(preset),
+            "max_bank_deg": self._bank_deg,
             "min_turn_radius_m": self.turn_radius,
             "max_turn_rate_deg_s": self.turn_rate,
         }
-        return Aircraft(self._true_airspeed(preset), **limits)
+        return Aircraft(self._true_airspeed_m_s, **limits)
 
-    def _bank(self, preset: Preset | None) -> float | None:
-        """The bank limit, degrees: that of the parameter file where no option limits the turn."""
+    @property
+    def _bank_deg(self) -> float | None:
+        """The bank limit: that of the parameter file where no option limits the turn."""
         is_limited = any(value is not None for value in (self.bank, self.turn_radius, self.turn_rate))
-        return self.bank if preset is None or is_limited else preset.max_bank_deg
+        return self.bank if self.preset is None or is_limited else self.preset.max_bank_deg
 
-    def indicated(self, preset: Preset | None) -> float | None:
+    @property
+    def indicated_m_s(self) -> float | None:
         """The indicated airspeed, metres per second; None where the true airspeed is given."""
         if self.airspeed is not None:
             if self.indicated_airspeed is not None:
@@ -401,27 +400,28 @@ class AircraftOptions:
             if self.temperature is not None:
                 raise InvalidArgument("temperature_c", "goes with an indicated airspeed: --airspeed is the true one")
             return None
-        if self.indicated_airspeed is None and preset is not None:
-            return preset.indicated_airspeed_m_s
+        if self.indicated_airspeed is None and self.preset is not None:
+            return self.preset.indicated_airspeed_m_s
         return self.indicated_airspeed
 
-    def remark(self, preset: Preset | None) -> str:
+    @property
+    def remark(self) -> str:
         """A line with the true airspeed where the indicated one was given, and with the bank limit of a file."""
-        indicated, bank, sentences = self.indicated(preset), self._bank(preset), []
+        indicated, bank, sentences = self.indicated_m_s, self._bank_deg, []
         if indicated is not None:
             density_altitude = density_altitude_m(self._altitude_m, self.temperature)
             sentences.append(
-                f"True airspeed {self._true_airspeed(preset):.4g} m/s: {indicated:.4g} indicated, "
+                f"True airspeed {self._true_airspeed_m_s:.4g} m/s: {indicated:.4g} indicated, "
                 f"density altitude {density_altitude:.0f} m."
             )
         if bank is not None and bank != self.bank and self.params is not None:
             sentences.append(f"Bank limit {bank:g} deg, from {self.params.name}.")
         return " ".join(sentences)
 
-    def _true_airspeed(self, preset: Preset | None) -> float:
-        indicated = self.indicated(preset)
-        if indicated is not None:
-            return true_airspeed(indicated, self._altitude_m, self.temperature)
+    @property
+    def _true_airspeed_m_s(self) -> float:
+        if self.indicated_m_s is not None:
+            return true_airspeed(self.indicated_m_s, self._altitude_m, self.temperature)
         if self.airspeed is None:
             raise InvalidArgument("airspeed_m_s", "is needed, or --indicated-airspeed, or --params with an airspeed")
         return self.airspeed
@@ -516,117 +516,6 @@ class WindOptions:
         """Raise `InvalidArgument` for a declination that has no effect on the wind and on the start."""
         poses = [] if start is None else [start.pose, start.pose_lla]
         check_declination(self.declination, *(values[-1] for values in (self.wind, *poses) if values))
-
-
-@Parameter(name="*")
-@dataclass(frozen=True)
-class FenceOptions:
-    """A fence, and how far from it the path must stay."""
-
-    fence: Annotated[
-        Path | None,
-        Parameter(
-            group=scene,
-            metavar="FILE",
-            help="Fence of polygons and circles: .plan of QGroundControl, QGC WPL 110 with fence items, latitudes and longitudes as ArduPilot's fence.txt, or for scenes in metres a .csv with the columns zone, rule (in or out), east_m, north_m and radius_m. A line says whether the plan and its hold stay clear, and if not, where and when they enter which zone, and the fastest clear entry found, which files and pictures then have: exit status 1. That of --orbit-from if absent.",
-        ),
-    ] = None
-    margin: Annotated[
-        Metres,
-        Parameter(
-            group=scene,
-            help="Least distance from the fence; if absent, what loiter guide may be beside its path: 5 % of the radius, and 5 m at least.",
-        ),
-    ] = None
-
-    def read(self, site: Site | None) -> PlacedFence | Fence | None:
-        """The fence of the file, or that of an existing mission; None without one. Raises `InvalidArgument`.
-
-        A .csv is a table in local metres; all other files have places in degrees.
-        """
-        if self.fence is not None and self.fence.suffix.lower() == ".csv":
-            from loiter.io.fence_table import read_fence_table
-
-            return read_fence_table(self.fence)
-        if self.fence is not None:
-            from loiter.io.missions.fences import read_fence
-
-            return read_fence(self.fence)
-        found = None if site is None else site.fence
-        if found is None and self.margin is not None:
-            raise InvalidArgument("margin_m", "has no effect without --fence")
-        return found
-
-
-@Parameter(name="*")
-@dataclass(frozen=True)
-class BatchFenceOptions(FenceOptions):
-    """A fence against which each row of a table is checked."""
-
-    fence: Annotated[
-        Path | None,
-        Parameter(
-            group=scene,
-            metavar="FILE",
-            help="Fence of polygons and circles, in the formats of loiter plan: a .csv where the table is in metres. Columns say whether each row stays clear, and if not, which zone it enters when, and the time of the fastest clear entry found.",
-        ),
-    ] = None
-
-
-@Parameter(name="*")
-@dataclass(frozen=True)
-class LegFenceOptions(FenceOptions):
-    """A fence, of which a whole leg is checked."""
-
-    fence: Annotated[
-        Path | None,
-        Parameter(
-            group=scene,
-            metavar="FILE",
-            help="Fence of polygons and circles, in the formats of loiter plan. A line says whether the way in, the whole circle and the way out stay clear, and if not, where and when they enter which zone: exit status 1. A .plan has the fence too.",
-        ),
-    ] = None
-
-
-@Parameter(name="*")
-@dataclass(frozen=True)
-class FlownFenceOptions(FenceOptions):
-    """A fence that a simulated flight stays clear of."""
-
-    fence: Annotated[
-        Path | None,
-        Parameter(
-            group=scene,
-            metavar="FILE",
-            help="The optimal law stays clear of a fence: that of a file, as for loiter plan. Lines say how far each law stayed from it.",
-        ),
-    ] = None
-
-
-@Parameter(name="*")
-@dataclass(frozen=True)
-class GuidedFenceOptions(FenceOptions):
-    """A fence, which may be that of the vehicle."""
-
-    fence: Annotated[
-        Path | None,
-        Parameter(
-            group=scene,
-            metavar="FILE",
-            help="Stay clear of a fence: that of a file, as for loiter plan, or with --fence vehicle the one that the vehicle has. The fastest clear entry that is found is flown, and a flight without any refused. In flight the vehicle is handed back to its own hold where it enters a zone.",
-        ),
-    ] = None
-
-    def of_flight(self) -> PlacedFence | OwnFence | None:
-        """The fence of the file, or "vehicle"; None without one. Raises `InvalidArgument`."""
-        if self.fence == Path("vehicle"):
-            return "vehicle"
-        from loiter.fences import Fence
-
-        found = self.read(None)
-        if isinstance(found, Fence):
-            raise InvalidArgument("fence", METRES_ONLY)
-        return found
 
 
 Fit = Annotated[
@@ -727,11 +616,6 @@ class PictureOptions:
         """The size and the resolution; raises `InvalidArgument` where they cannot be used."""
         return PictureFormat(self.size, self.dpi)
 
-    def save(self, figure: Any, paths: Sequence[Path] | None = None) -> None:
-        """Write a figure to the files of --plot, or to others beside them."""
-        with argument_names(path="plot"):
-            files.save_pictures(self.plot if paths is None else paths, figure, self.format)
-
     def check(self) -> None:
         """Raise `InvalidArgument` for a format, a size or a resolution that cannot be used, or has no effect."""
         PictureFormat(self.size, self.dpi)
@@ -769,22 +653,6 @@ class MapPictureOptions(PictureOptions):
     def has_pixels(self) -> bool:
         """Whether the picture has pixels in every format."""
         return True
-
-
-class Output(NamedTuple):
-    """What to print and to write."""
-
-    json: bool
-    pictures: PictureOptions
-    save: tuple[Path, ...]
-
-    def show(self, document: dict[str, object], *lines: RenderableType) -> None:
-        """Print the document or the lines, with the files that were written."""
-        written = [*self.pictures.plot, *self.save]
-        if self.json:
-            report.print_json(document | report.files_member(written))
-        else:
-            report.write(*lines, *report.files_line(written))
 
 
 def _with_radius(argument: str, numbers: Sequence[float], radius_m: float | None) -> tuple[float, float, float]:

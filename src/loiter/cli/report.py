@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from math import atan2, degrees, hypot, isfinite
-from pathlib import Path
-from typing import TYPE_CHECKING
 
 from rich.console import Console, RenderableType
 from rich.table import Table
@@ -22,9 +20,6 @@ from loiter.planning.landing import LandingPlan
 from loiter.planning.leg import LegPlan
 from loiter.planning.maneuver import Maneuver, decimals_of
 from loiter.planning.model import ACTIONS, Orbit, Pose, Segment
-
-if TYPE_CHECKING:
-    from loiter.fences import ClearEntry
 
 # What is done at the exit of a leg, and at its end; a landing has words of its own.
 LEAVE = "leave straight", "at the point"
@@ -53,13 +48,6 @@ def json_value(value: str | int | float | bool) -> str | int | float | bool | No
     return None if isinstance(value, float) and not isfinite(value) else value
 
 
-def files_line(written: Iterable[Path]) -> list[str]:
-    """A line with the files that were written, if there are any: "Wrote entry.plan and entry.png."."""
-    *first, last = [str(path) for path in written] or [""]
-    names = f"{', '.join(first)} and {last}" if first else last
-    return [f"Wrote {names}."] if names else []
-
-
 def altitude_lines(altitude_m: float, datum: AltitudeDatum, *, home_known: bool) -> list[str]:
     """A line on the altitude that a mission has: on its reference, and on a home whose altitude is not known."""
     text = f"The mission is at {altitude_m:g} {datum.unit.replace('metres', 'm')}"
@@ -71,27 +59,15 @@ def altitude_lines(altitude_m: float, datum: AltitudeDatum, *, home_known: bool)
     return lines
 
 
-def files_member(written: Iterable[Path]) -> dict[str, object]:
-    """The files that were written as a member of a JSON object; empty without files."""
-    names = [str(path) for path in written]
-    return {"files": names} if names else {}
-
-
-def print_tables(
-    best: Sequence[Maneuver],
-    others: Sequence[Maneuver],
-    *,
-    everything: bool,
-    frame: LocalFrame | None = None,
-    remark: str = "",
-) -> None:
-    """Print the remark, the first of `best` (with `everything` each of them), and the cost of the other direction.
+def plan_lines(
+    best: Sequence[Maneuver], others: Sequence[Maneuver], *, everything: bool, frame: LocalFrame | None
+) -> list[RenderableType]:
+    """The first of `best`, with `everything` each of them, as tables, and the cost of the other direction.
 
     With a frame headings are true, and places are in degrees.
     """
     first, *ties = best
-    lines: list[RenderableType] = [remark] if remark else []
-    lines += [weather(first)] if _windy(first) else []
+    lines: list[RenderableType] = [weather(first)] if _windy(first) else []
     for maneuver in best if everything else [first]:
         lines += _description(maneuver, frame)
     # A plan that is shown does not need a line on what it costs.
@@ -99,7 +75,7 @@ def print_tables(
         lines.append(other_direction(best, others))
     if ties and not everything:
         lines.append(f"{len(best)} maneuvers are optimal; --all shows each.")
-    write(*lines)
+    return lines
 
 
 def _description(maneuver: Maneuver, frame: LocalFrame | None) -> list[RenderableType]:
@@ -112,17 +88,6 @@ def _description(maneuver: Maneuver, frame: LocalFrame | None) -> list[Renderabl
     if maneuver.miss_m > SMALLEST_MISS * maneuver.orbit.radius_m:
         lines.append(f"Ends {maneuver.miss_m:.3g} m off the point of joining, within the tolerance.")
     return lines
-
-
-def clear_entry_lines(entry: ClearEntry, frame: LocalFrame | None) -> list[RenderableType]:
-    """The clear entry as a sentence and a table, and what of any other is known."""
-    lines: list[RenderableType] = [entry.sentence]
-    if entry.maneuver is None:
-        return lines
-    if entry.maneuver.segments:
-        lines.append(table(entry.maneuver, frame))
-    least = _seconds(entry.maneuver, entry.least_s)
-    return [*lines, f"No clear entry joins before {least}; files and pictures have the clear entry."]
 
 
 def headline(text: str) -> Text:
@@ -203,9 +168,9 @@ def _add_row(
     """Add a row for what begins at a time and a pose; `flown` are its seconds and metres, as far as they are known."""
     duration_s, length_m = flown or (None, None)
     rows.add_row(
-        _seconds(maneuver, time_s),
+        seconds(maneuver, time_s),
         action,
-        "" if duration_s is None else _seconds(maneuver, duration_s),
+        "" if duration_s is None else seconds(maneuver, duration_s),
         "" if length_m is None else _metres(maneuver, length_m),
         _metres(maneuver, maneuver.orbit.after(time_s).distance_m(pose)),
         *_directions(maneuver, pose, frame),
@@ -275,7 +240,7 @@ def _windy(maneuver: Maneuver) -> bool:
 def peel_off(maneuver: Maneuver, frame: LocalFrame | None = None) -> str:
     """Where the last segment begins: "Peel off: turn left in 12.4 s, 138 m from the centre, at 9 m east, ..."."""
     *before, last = maneuver.segments
-    when = f"in {_seconds(maneuver, last.start_s)}" if before else "now"
+    when = f"in {seconds(maneuver, last.start_s)}" if before else "now"
     distance = _metres(maneuver, maneuver.orbit.after(last.start_s).distance_m(last.start))
     where = _place(maneuver, last.start, frame)
     return f"Peel off: {action(last, maneuver)} {when}, {distance} from the centre, at {where}."
@@ -294,15 +259,15 @@ def other_direction(best: Sequence[Maneuver], others: Sequence[Maneuver]) -> str
     return f"{subject} would join {_difference(abs(later))} {'later' if later > 0.0 else 'sooner'}."
 
 
-def _difference(seconds: float) -> str:
-    if seconds < 1e-3:
+def _difference(time_s: float) -> str:
+    if time_s < 1e-3:
         return "less than a millisecond"
-    return f"{seconds:.0f} s" if seconds >= 100.0 else f"{seconds:.3g} s"
+    return f"{time_s:.0f} s" if time_s >= 100.0 else f"{time_s:.3g} s"
 
 
-def _seconds(maneuver: Maneuver, seconds: float) -> str:
+def seconds(maneuver: Maneuver, time_s: float) -> str:
     """A time of the maneuver as text."""
-    return f"{seconds:.{decimals_of(maneuver.orbit)}f} s"
+    return f"{time_s:.{decimals_of(maneuver.orbit)}f} s"
 
 
 def _metres(maneuver: Maneuver, metres: float) -> str:

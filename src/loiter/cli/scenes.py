@@ -1,32 +1,24 @@
-"""The scene that the options of a command describe, with a circle that can be held, and the fence around it."""
+"""The scene that the options of a command describe, with a circle that can be held."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from math import isfinite
 from typing import TYPE_CHECKING, NamedTuple
 
-from loiter.cli.options import METRES_ONLY, AircraftOptions, FenceOptions, OrbitOptions, StartOptions, WindOptions
+from loiter.cli.options import AircraftOptions, OrbitOptions, StartOptions, WindOptions
 from loiter.cli.sentences import argument_names
 from loiter.errors import InvalidArgument, RadiusTooSmall
 from loiter.geo import LocalFrame
 from loiter.geo.frame import degrees_of
-from loiter.io.document import PlacedProblem, maneuver_values
+from loiter.io.document import PlacedProblem
 from loiter.io.missions.altitudes import MEAN_SEA_LEVEL, AltitudeDatum
 from loiter.planning.model import Aircraft, Orbit, Pose, Wind
 from loiter.planning.problem import Problem
 from loiter.planning.slot import Slot
 
 if TYPE_CHECKING:
-    from numpy import float64
-    from numpy.typing import NDArray
-
-    from loiter.fences import ClearEntry, Fence, FenceCheck, PlacedFence
     from loiter.io.missions.parameters import Preset
-    from loiter.io.missions.site import Site
-    from loiter.planning.leg import LegPlan
-    from loiter.planning.maneuver import Maneuver
 
 # Places in degrees that are read as metres lie no further apart than this.
 FEW_DEGREES = 2.0
@@ -52,17 +44,16 @@ def read_options(
 
     Raises `InvalidArgument` where they are contradictory or incomplete.
     """
-    preset = aircraft.preset
-    aircraft = aircraft.above_sea(preset, datum)
-    pose, circle, frame = place_scene(start, orbit, wind, preset)
-    uav = aircraft.aircraft(preset)
+    aircraft = aircraft.above_sea(datum)
+    pose, circle, frame = place_scene(start, orbit, wind, aircraft.preset)
+    uav = aircraft.aircraft
     planned = circle.fitted(uav, wind.moving_air) if fit else circle
     problem = Problem(pose, planned, uav, wind.moving_air)
     remarks = [
         orbit.site_remark(),
         _places_remark(start, frame),
         "" if frame else _metres_remark(pose, circle),
-        aircraft.remark(preset),
+        aircraft.remark,
         _fit_remark(circle, planned),
     ]
     return OptionsRead(PlacedProblem(problem, frame), "\n".join(filter(None, remarks)))
@@ -87,13 +78,12 @@ def read_circle(
     datum: AltitudeDatum = MEAN_SEA_LEVEL,
 ) -> CircleRead:
     """What the options describe, without a start; otherwise like `read_options`."""
-    preset = aircraft.preset
-    aircraft = aircraft.above_sea(preset, datum)
+    aircraft = aircraft.above_sea(datum)
     wind.check_declination()
-    circle, frame = orbit.circle(preset)
-    uav = aircraft.aircraft(preset)
+    circle, frame = orbit.circle(aircraft.preset)
+    uav = aircraft.aircraft
     planned = circle.fitted(uav, wind.moving_air) if fit else circle
-    remarks = [orbit.site_remark(), aircraft.remark(preset), _fit_remark(circle, planned)]
+    remarks = [orbit.site_remark(), aircraft.remark, _fit_remark(circle, planned)]
     return CircleRead(planned, uav, wind.moving_air, frame, "\n".join(filter(None, remarks)))
 
 
@@ -167,58 +157,3 @@ def start_pose(start: StartOptions, air: WindOptions, frame: LocalFrame | None) 
     assert start.pose is not None  # one of them is given
     east_m, north_m, heading_deg = start.pose
     return Pose(east_m, north_m, air.true_heading("pose heading_deg", heading_deg))
-
-
-class CheckedFence(NamedTuple):
-    """A fence in local metres, and whether a plan stays clear of it."""
-
-    fence: Fence
-    check: FenceCheck
-    placed: PlacedFence | None = None
-
-    def clear_entry(self, problem: Problem) -> ClearEntry | None:
-        """The fastest entry found that is clear; None where the plan is."""
-        from loiter.fences import clear_entry
-
-        p = problem
-        if self.check.clear:
-            return None
-        return clear_entry(self.fence, p.pose, p.orbit, p.aircraft, p.wind, self.check.margin_m)
-
-    def least_m(self, east_m: NDArray[float64], north_m: NDArray[float64]) -> float:
-        """The least distance of points (n,) from the fence, metres, negative on the wrong side of a zone."""
-        points = zip(east_m.tolist(), north_m.tolist(), strict=True)
-        return min(float(side.min()) for at in points for side in self.fence.signed_distances(*at) if side.size)
-
-    def document(self, entry: ClearEntry | None, frame: LocalFrame | None) -> dict[str, object]:
-        """The check and, where the plan is not clear, the entry that is, for JSON."""
-        if entry is None:
-            return self.check.to_dict(frame)
-        least_s = entry.least_s if isfinite(entry.least_s) else None
-        flown = entry.maneuver
-        values = None if flown is None else maneuver_values(flown, frame) | {"later_s": entry.later_s}
-        return self.check.to_dict(frame) | {"clear_entry": values, "least_s": least_s, "blocking": entry.blocking}
-
-
-def check_fence(
-    options: FenceOptions, site: Site | None, maneuver: Maneuver | LegPlan, frame: LocalFrame | None
-) -> CheckedFence | None:
-    """Whether a plan or a leg stays clear of the fence of the options or of a mission; None without a fence."""
-    from loiter.fences import Fence
-
-    try:
-        found = options.read(site)
-        if found is None:
-            return None
-        if isinstance(found, Fence):
-            if frame is not None:
-                raise InvalidArgument("fence", METRES_ONLY)
-            return CheckedFence(found, found.check(maneuver, options.margin))
-        if frame is None:
-            raise InvalidArgument("fence", "goes with --pose-lla and --orbit-lla: its places are in degrees")
-        fence = found.local(frame)
-    except InvalidArgument as error:
-        if error.argument.startswith("zone "):
-            raise InvalidArgument("fence", f"cannot be used: {error}") from error
-        raise
-    return CheckedFence(fence, fence.check(maneuver, options.margin), found)

@@ -12,14 +12,17 @@ from types import FrameType
 from typing import TYPE_CHECKING
 
 from loiter.cli.report import json_value
-from loiter.planning.model import ACTIONS, wind_from_velocity
+from loiter.planning.compass import wrapped
+from loiter.planning.model import ACTIONS, BRIEF_ACTIONS, Wind, wind_from_velocity
 
 if TYPE_CHECKING:
     from loiter.guidance.vehicle import VehicleEstimates
     from loiter.mavlink import GuideReport, Report
+    from loiter.planning.maneuver import Maneuver
 
-# Winds below this, metres per second, and offsets below this, metres, are omitted: they would print as 0.
-LEAST_WIND_M_S, LEAST_OFFSET_M = 0.05, 0.05
+# Winds below this, metres per second, and offsets below this, metres, are omitted: they would print as 0. Times closer
+# than this count as equal.
+LEAST_WIND_M_S, LEAST_OFFSET_M, SAME_TIME_S = 0.05, 0.05, 0.05
 
 # Signals that end the program: the vehicle is commanded back to the fall-back circle first. Shells let programs that
 # they start in the background ignore SIGINT.
@@ -98,7 +101,7 @@ def guide_document(vehicle: GuideReport) -> dict[str, object]:
 
 def _estimates(estimates: VehicleEstimates) -> dict[str, object]:
     """The estimates that the lines for people show: roll response, delay, ratio of turn rates, wind."""
-    wind = wind_from_velocity(estimates.wind_east_m_s, estimates.wind_north_m_s)
+    wind = _estimated_wind(estimates)
     values = {
         "roll_time_s": estimates.roll.time_s,
         "delay_s": estimates.delay_s,
@@ -109,10 +112,14 @@ def _estimates(estimates: VehicleEstimates) -> dict[str, object]:
     return {name: json_value(value) for name, value in values.items()}
 
 
-def line(vehicle: GuideReport) -> str:
+def _estimated_wind(estimates: VehicleEstimates) -> Wind:
+    return wind_from_velocity(estimates.wind_east_m_s, estimates.wind_north_m_s)
+
+
+def guide_line(vehicle: GuideReport) -> str:
     """A report in a line: "  12.0 s: joining clockwise in 8.2 s; bank 44 of 45 deg; 600 m, 100 above home; ..."."""
     parts = [_progress(vehicle), *_bank(vehicle), *_altitude(vehicle), *_offset(vehicle), *_slot(vehicle)]
-    parts += _wind(vehicle)
+    parts += [] if vehicle.estimates is None else _wind(_estimated_wind(vehicle.estimates))
     return f"{vehicle.time_s:6.1f} s: {'; '.join(parts)}"
 
 
@@ -162,10 +169,55 @@ def _slot(vehicle: GuideReport) -> list[str]:
     return [f"slot {abs(ahead_deg):.1f} deg {'ahead' if ahead_deg >= 0.0 else 'behind'}"]
 
 
-def _wind(vehicle: GuideReport) -> list[str]:
-    """The wind that the law estimates."""
-    e = vehicle.estimates
-    if e is None:
+def _wind(wind: Wind) -> list[str]:
+    """A wind that is not negligible."""
+    if wind.speed_m_s < LEAST_WIND_M_S:
         return []
-    wind = wind_from_velocity(e.wind_east_m_s, e.wind_north_m_s)
-    return [f"wind {wind.speed_m_s:.1f} m/s from {wind.from_deg:03.0f}"] if wind.speed_m_s >= LEAST_WIND_M_S else []
+    return [f"wind {wind.speed_m_s:.1f} m/s from {wrapped(wind.from_deg):03.0f}"]
+
+
+def watch_line(vehicle: Report) -> str:
+    """A report in a line: "12 s: joins clockwise in 19.8 s; right now, peel off left in 14.1 s; ..."."""
+    clock = f"{vehicle.time_s:6.1f} s"
+    if vehicle.plan is None:
+        return f"{clock}: {vehicle.problem}"
+    if vehicle.holding:
+        return f"{clock}: on the circle, {vehicle.plan.turn.described}{_outside(vehicle.outside_m)}"
+    parts = [
+        f"joins {vehicle.plan.turn.described} in {vehicle.time_to_join_s:.1f} s",
+        *_next_actions(vehicle, vehicle.plan),
+        _other_direction(vehicle, vehicle.plan),
+    ]
+    if vehicle.wind_source != "still air":
+        parts += [f"{text}, {vehicle.wind_source}" for text in _wind(vehicle.wind)]
+    return f"{clock}: {'; '.join(parts)}"
+
+
+def _outside(outside_m: float) -> str:
+    """The distance of an aircraft from the circle that it holds, if it is a metre or more."""
+    side = "outside" if outside_m > 0.0 else "inside"
+    return f", {abs(outside_m):.0f} m {side}" if abs(outside_m) >= 1.0 else ""
+
+
+def _next_actions(vehicle: Report, plan: Maneuver) -> list[str]:
+    """The actions before the hold as one part of a line; none if all are too short to fly."""
+    *before_hold, _ = vehicle.actions
+    texts = [
+        f"{BRIEF_ACTIONS[action.letter]} " + (f"in {action.in_s:.1f} s" if action.in_s else "now")
+        for action in before_hold
+    ]
+    if not texts:
+        return []
+    *others, last = texts
+    peel_off = "peel off " if len(plan.segments) > 1 else ""
+    return [", ".join([*others, peel_off + last])]
+
+
+def _other_direction(vehicle: Report, plan: Maneuver) -> str:
+    """How much later or sooner the other direction would join."""
+    other, later = plan.turn.other.described, vehicle.other_costs_s
+    if later is None:
+        return f"{other} cannot be held"
+    if abs(later) < SAME_TIME_S:
+        return f"{other} takes the same time"
+    return f"{other} {abs(later):.1f} s {'later' if later > 0.0 else 'sooner'}"

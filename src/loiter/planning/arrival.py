@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import replace
 from math import hypot, isfinite, nan
 from typing import NamedTuple
 
@@ -64,6 +66,18 @@ def arrivals_at(problem: Problem, time_s: float, bearing_deg: float) -> tuple[Ma
     if not possible:
         raise _impossible(problem, placed, time_s, bearing_deg)
     return tuple(_maneuver(problem, path, one.turn, time_s, bearing_deg) for path, one in possible)
+
+
+def best_and_others_at(
+    problem: Problem, time_s: float, bearing_deg: float
+) -> tuple[tuple[Maneuver, ...], tuple[Maneuver, ...]]:
+    """The maneuver of `plan_at`, and that in the other direction if there is one, like `solve.best_and_others`."""
+    best, *others = arrivals_at(problem, time_s, bearing_deg)
+    if problem.orbit.turn is not Turn.EITHER:
+        with suppress(ImpossibleTime):
+            found = arrivals_at(problem.with_turn(best.turn.other), time_s, bearing_deg)
+            others = [replace(m, orbit=problem.orbit) for m in found]
+    return (best,), tuple(others)
 
 
 def arrival_in(problem: Problem, turn: Turn, time_s: float, bearing_deg: float) -> Maneuver | None:

@@ -16,7 +16,7 @@ from rich.table import Column
 from rich.text import Text
 
 import loiter
-from loiter.cli.legs import ClimbRate, DescentRate
+from loiter.cli.fences import BatchFenceOptions
 from loiter.cli.numbers import check_declination, column_mapping, whole
 from loiter.cli.options import (
     CIRCLE_DEGREES,
@@ -27,8 +27,9 @@ from loiter.cli.options import (
     WIND_HELP,
     Airspeed,
     Bank,
-    BatchFenceOptions,
+    ClimbRate,
     DeclinationDegrees,
+    DescentRate,
     Json,
     SlotBearing,
     SlotTime,

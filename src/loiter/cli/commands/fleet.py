@@ -27,6 +27,7 @@ from loiter.cli.options import (
     output,
     scene,
 )
+from loiter.cli.output import Output
 from loiter.cli.scenes import CircleRead, fit_proposed, read_circle
 from loiter.cli.sentences import argument_names
 from loiter.errors import InvalidArgument, positive
@@ -126,7 +127,12 @@ def fleet(
     from loiter.batch.fleets import read_fleet
 
     read = read_circle(circle, uav, air, fit=fit, datum=waypoints.datum(circle.site))
-    _check_files(pictures, animate, save)
+    wanted = Output(json, pictures, save)
+    wanted.check(check_format)
+    if animate is not None:
+        if animate.suffix.lower() != ".gif":
+            raise InvalidArgument("animate", f"is {str(animate)!r}: the file name must end in .gif")
+        check_writable("animate", animate)
     if circle.site is not None and circle.site.fence is not None:
         raise InvalidArgument("orbit_from", "has a fence, which is not checked for fleets: give --orbit-lla")
     rows = read_fleet(table, column_mapping(map_ or []))
@@ -137,15 +143,17 @@ def fleet(
     contents = _contents(shown, save, read, uav, waypoints, autopilot, circle.site)
     for path, content in contents:
         write_content("save", path, content)
-    _draw(shown, pictures, animate, read)
-    written = [*(path for path, _ in contents), *pictures.plot, *([animate] if animate else [])]
-    if json:
-        report.print_json(shown.document() | report.files_member(written))
-        return
-    lines: list[RenderableType] = [read.remark] if read.remark else []
-    lines += shown.lines()
+    if pictures.plot or animate is not None:
+        from loiter.plot import fleet as drawn
+
+        if pictures.plot:
+            wanted.draw(drawn.draw(plan, shown.names, frame=read.frame))
+        if animate is not None:
+            write_content("animate", animate, drawn.animation(plan, shown.names, frame=read.frame))
+    lines = [*([read.remark] if read.remark else []), *shown.lines()]
     lines += [NO_SLOTS] if any(map(is_mission, save)) else []
-    report.write(*lines, *report.files_line(written))
+    written = wanted._replace(save=[path for path, _ in contents])
+    written.show(shown.document(), *lines, beside=[animate] if animate else [])
 
 
 class ShownFleet(NamedTuple):
@@ -224,18 +232,6 @@ class ShownFleet(NamedTuple):
         return rows
 
 
-def _check_files(pictures: PictureOptions, animate: Path | None, save: Sequence[Path]) -> None:
-    """Raise `InvalidArgument` for files that could not be written."""
-    pictures.check()
-    with argument_names(path="save"):
-        for path in save:
-            check_format(path)
-    if animate is not None:
-        if animate.suffix.lower() != ".gif":
-            raise InvalidArgument("animate", f"is {str(animate)!r}: the file name must end in .gif")
-        check_writable("animate", animate)
-
-
 def _layer_height(layer_height: float | None, separation: float) -> float:
     return separation if layer_height is None else positive("layer_height_m", layer_height, "metres")
 
@@ -282,15 +278,3 @@ def _contents(
     ]
     with argument_names(path="save"):
         return [found for path in save for found in fleet_contents(path, arguments)]
-
-
-def _draw(shown: ShownFleet, pictures: PictureOptions, animate: Path | None, read: CircleRead) -> None:
-    """Write the pictures and the animation."""
-    if not pictures.plot and animate is None:
-        return
-    from loiter.plot import fleet as drawn
-
-    if pictures.plot:
-        pictures.save(drawn.draw(shown.plan, shown.names, frame=read.frame))
-    if animate is not None:
-        write_content("animate", animate, drawn.animation(shown.plan, shown.names, frame=read.frame))

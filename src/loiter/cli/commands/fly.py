@@ -17,14 +17,13 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 import loiter
 from loiter.cli.commands.replay import replay as show_log
+from loiter.cli.fences import CheckedFence, FlownFenceOptions, check_fence
 from loiter.cli.numbers import whole
 from loiter.cli.options import (
     AircraftOptions,
     Files,
-    FlownFenceOptions,
     Json,
     OrbitOptions,
-    Output,
     PictureOptions,
     SlotBand,
     SlotBearing,
@@ -32,13 +31,14 @@ from loiter.cli.options import (
     StartOptions,
     WindOptions,
 )
-from loiter.cli.scenes import CheckedFence, check_fence, place_scene, read_slot
+from loiter.cli.output import Output
+from loiter.cli.scenes import place_scene, read_slot
 from loiter.errors import InvalidArgument, clause
 from loiter.planning.model import Aircraft
 from loiter.planning.problem import Problem
 from loiter.planning.slot import Slot
 from loiter.plot.sizes import LEAST_FLIGHT_HEIGHT_MM
-from loiter.writing import check_writable, write_content
+from loiter.writing import check_writable
 
 if TYPE_CHECKING:
     from loiter.cli.flights import Conditions
@@ -194,7 +194,7 @@ class SimulationOptions:
     def aircraft(self, uav: AircraftOptions) -> Aircraft:
         """The aircraft of the options, or that of the airframe, which has its own airspeed and bank limit."""
         if self.sim != "jsbsim":
-            return uav.aircraft(uav.preset)
+            return uav.aircraft
         if given := uav.names_given:
             raise InvalidArgument("sim", f"jsbsim flies an airframe with its own limits: {given[0]} has no effect")
         return self._airframe().aircraft
@@ -311,20 +311,23 @@ def _replay(log: Path, others: tuple[object, ...], wanted: Output) -> None:
 
 def _check_files(wanted: Output, runs: int | None) -> None:
     """Raise `InvalidArgument` before anything flies if a file could not be written."""
-    wanted.pictures.check()
-    if wanted.pictures.size is not None and wanted.pictures.size[1] < LEAST_FLIGHT_HEIGHT_MM:
+    wanted.check(_check_table)
+    size_mm = wanted.pictures.size
+    if size_mm is not None and size_mm[1] < LEAST_FLIGHT_HEIGHT_MM:
         raise InvalidArgument(
             "size_mm height",
-            f"is {wanted.pictures.size[1]:g}: a flight has three panels, and needs {LEAST_FLIGHT_HEIGHT_MM:g} millimetres",
+            f"is {size_mm[1]:g}: a flight has three panels, and needs {LEAST_FLIGHT_HEIGHT_MM:g} millimetres",
         )
     for path in wanted.pictures.plot:
         if runs is not None:
             raise InvalidArgument("plot", "draws one flight, not the many of --runs")
         check_writable("plot", path)
-    for path in wanted.save:
-        if path.suffix.lower() != ".csv":
-            raise InvalidArgument("save", f"is {str(path)!r}: the file name must end in .csv")
-        check_writable("save", path)
+
+
+def _check_table(path: Path) -> None:
+    if path.suffix.lower() != ".csv":
+        raise InvalidArgument("save", f"is {str(path)!r}: the file name must end in .csv")
+    check_writable("save", path)
 
 
 def _fly_once(
@@ -362,8 +365,8 @@ def _fly_once(
 
         zones = None if fenced is None else fenced.fence
         figure = draw(trial.ideal, flights, conditions=conditions.title, fence=zones)
-        wanted.pictures.save(figure)
-    _save(wanted.save, _steps(flights))
+        wanted.draw(figure)
+    wanted.write(lambda _: _table(_steps(flights)))
     first, *_ = flights
     lines = [f"{entry}: {trial.ideal}", conditions.line, *shown.time_line(first, flights[first])]
     document = shown.flights_document(trial, flights) | {"simulation": conditions._asdict()}
@@ -408,7 +411,7 @@ def _fly_many(starts: Sequence[Trial], simulated: SimulationOptions, wanted: Out
     laws = {name: setting.laws[name] for name in simulated.laws}
     with _progress_bar() as progress:
         outcomes = campaign(laws, setting.simulator, starts, band=setting.band, workers=workers, progress=progress)
-    _save(wanted.save, _rows(starts, outcomes))
+    wanted.write(lambda _: _table(_rows(starts, outcomes)))
     document = shown.campaign_document(outcomes) | {"simulation": conditions._asdict()}
     wanted.show(document, conditions.line, shown.campaign_table(outcomes))
 
@@ -424,14 +427,11 @@ def _rows(starts: Sequence[Trial], outcomes: Mapping[str, Sequence[Outcome]]) ->
             yield [name, pose.east_m, pose.north_m, pose.heading_deg, trial.ideal.orbit.radius_m, *outcome]
 
 
-def _save(paths: Sequence[Path], rows: Iterator[Sequence[object]]) -> None:
-    """Write rows as CSV; an error leaves no partial file."""
-    if not paths:
-        return
+def _table(rows: Iterator[Sequence[object]]) -> bytes:
+    """Rows as CSV."""
     text = io.StringIO()
     csv.writer(text, lineterminator="\n").writerows(rows)
-    for path in paths:
-        write_content("save", path, text.getvalue().encode())
+    return text.getvalue().encode()
 
 
 @contextmanager

@@ -17,9 +17,9 @@ from cyclopts import Parameter
 import loiter
 from loiter.cli import report, vehicles
 from loiter.cli.commands.mavlink import Connect, System, Timeout, connection
+from loiter.cli.fences import GuidedFenceOptions
 from loiter.cli.numbers import metres, one
 from loiter.cli.options import (
-    GuidedFenceOptions,
     GuidedOrbitOptions,
     GuidedVehicleOptions,
     SlotBand,
@@ -179,7 +179,7 @@ def guide(
                 if json:
                     vehicles.print_line(vehicles.guide_document(vehicle))
                     continue
-                report.write(*vehicle.notices, vehicles.line(vehicle))
+                report.write(*vehicle.notices, vehicles.guide_line(vehicle))
                 sys.stdout.flush()
         except BrokenPipeError:
             # The vehicle is commanded back, and the error says so.

@@ -15,7 +15,7 @@ from loiter.batch.fleets import read_connections
 from loiter.cli import report
 from loiter.cli.commands.fleet import ShownFleet
 from loiter.cli.status import LINK_FAILED, abandon_output
-from loiter.cli.vehicles import ending_signals, line
+from loiter.cli.vehicles import ending_signals, guide_line
 from loiter.errors import LinkFailed
 from loiter.mavlink.guiding.fleet import REPORT_S, FleetRequest, GuidedFleet, Member, check_fleet
 from loiter.planning.model import Orbit
@@ -131,7 +131,7 @@ class _FleetFlight:
 
     def _line(self, member: Member) -> str:
         assert member.report is not None  # the caller has asked
-        return f"{member.vehicle.name}: {line(member.report)}"
+        return f"{member.vehicle.name}: {guide_line(member.report)}"
 
     def _write_notices(self) -> None:
         for member in self._fleet.members:

@@ -17,9 +17,9 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
 
 import loiter
 from loiter.cli import report, vehicles
+from loiter.cli.fences import FenceOptions, check_fence
 from loiter.cli.numbers import whole
 from loiter.cli.options import (
-    FenceOptions,
     Fit,
     MissionOptions,
     OrbitOptions,
@@ -31,19 +31,16 @@ from loiter.cli.options import (
     WindOptions,
     output,
 )
-from loiter.cli.scenes import check_fence, fit_proposed, read_options
+from loiter.cli.scenes import fit_proposed, read_options
 from loiter.errors import InvalidArgument
 from loiter.geo import LocalFrame
 from loiter.io.document import maneuver_values
 from loiter.io.missions.items import Autopilot, Mission
 from loiter.io.missions.mission import own_loiter_remark
 from loiter.mavlink.connection.link import TIMEOUT_S, check_target
-from loiter.planning.compass import wrapped
-from loiter.planning.model import BRIEF_ACTIONS
 from loiter.planning.solve import fastest
 
 if TYPE_CHECKING:
-    from loiter.mavlink import Report
     from loiter.planning.maneuver import Maneuver
 
 connection = Group("Connection", sort_key=0)
@@ -255,8 +252,7 @@ def watch(
     if not circle.placed:
         raise InvalidArgument("orbit_lla", "is needed: a vehicle reports its position in degrees")
     air.check_declination()
-    preset = uav.preset
-    orbit, frame = circle.circle(preset)
+    orbit, frame = circle.circle(uav.preset)
     assert frame is not None  # the circle is in degrees
     if reports is not None and reports < 1:
         raise InvalidArgument("reports", f"is {reports}: it must be at least 1")
@@ -265,7 +261,7 @@ def watch(
         connect,
         orbit,
         frame,
-        uav.aircraft(preset),
+        uav.aircraft,
         wind,
         system=system,
         period_s=every,
@@ -278,63 +274,12 @@ def watch(
         for vehicle in islice(vehicle_reports, reports):
             vehicles.print_line(vehicles.watch_document(vehicle))
         return
-    if remark := uav.remark(preset):
+    if remark := uav.remark:
         report.write(remark)
     commanded = False
     for vehicle in islice(vehicle_reports, reports):
         if vehicle.commanded and not commanded and vehicle.turn is not None:
             report.write(f"The vehicle was commanded to hold the circle {vehicle.turn.described}.")
         commanded = vehicle.commanded
-        report.write(*vehicle.notices, line(vehicle))
+        report.write(*vehicle.notices, vehicles.watch_line(vehicle))
         sys.stdout.flush()
-
-
-# A wind below LEAST_WIND_M_S, which would print as 0.0, is omitted; times closer than SAME_TIME_S count as equal.
-LEAST_WIND_M_S, SAME_TIME_S = 0.05, 0.05
-
-
-def line(vehicle: Report) -> str:
-    """A report in a line: "12 s: joins clockwise in 19.8 s; right now, straight in 3.2 s, peel off left in 14.1 s; ..."."""
-    clock, wind = f"{vehicle.time_s:6.1f} s", vehicle.wind
-    if vehicle.plan is None:
-        return f"{clock}: {vehicle.problem}"
-    if vehicle.holding:
-        return f"{clock}: on the circle, {vehicle.plan.turn.described}{_outside(vehicle.outside_m)}"
-    parts = [
-        f"joins {vehicle.plan.turn.described} in {vehicle.time_to_join_s:.1f} s",
-        *_next_actions(vehicle, vehicle.plan),
-        _other_direction(vehicle, vehicle.plan),
-    ]
-    if vehicle.wind_source != "still air" and wind.speed_m_s >= LEAST_WIND_M_S:
-        parts.append(f"wind {wind.speed_m_s:.1f} m/s from {wrapped(wind.from_deg):03.0f}, {vehicle.wind_source}")
-    return f"{clock}: {'; '.join(parts)}"
-
-
-def _outside(outside_m: float) -> str:
-    """The distance of an aircraft from the circle that it holds, if it is a metre or more."""
-    side = "outside" if outside_m > 0.0 else "inside"
-    return f", {abs(outside_m):.0f} m {side}" if abs(outside_m) >= 1.0 else ""
-
-
-def _next_actions(vehicle: Report, plan: Maneuver) -> list[str]:
-    """The actions before the hold as one part of a line; none if all are too short to fly."""
-    *before_hold, _ = vehicle.actions
-    texts = [
-        f"{BRIEF_ACTIONS[action.letter]} " + (f"in {action.in_s:.1f} s" if action.in_s else "now")
-        for action in before_hold
-    ]
-    if not texts:
-        return []
-    *others, last = texts
-    peel_off = "peel off " if len(plan.segments) > 1 else ""
-    return [", ".join([*others, peel_off + last])]
-
-
-def _other_direction(vehicle: Report, plan: Maneuver) -> str:
-    """How much later or sooner the other direction would join."""
-    other, later = plan.turn.other.described, vehicle.other_costs_s
-    if later is None:
-        return f"{other} cannot be held"
-    if abs(later) < SAME_TIME_S:
-        return f"{other} takes the same time"
-    return f"{other} {abs(later):.1f} s {'later' if later > 0.0 else 'sooner'}"

@@ -3,21 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 from cyclopts import Parameter
 from rich.console import RenderableType
+from rich.text import Text
 
 import loiter
-from loiter.cli import certificates, report
+from loiter.cli import report
+from loiter.cli.fences import FenceOptions, check_fence
 from loiter.cli.options import (
     TOLERANCE_HELP,
     AircraftOptions,
-    FenceOptions,
     Files,
     Fit,
     Json,
@@ -34,26 +34,26 @@ from loiter.cli.options import (
     output,
     scene,
 )
-from loiter.cli.scenes import CheckedFence, check_fence, fit_proposed, read_options, slot_of
+from loiter.cli.output import Output
+from loiter.cli.scenes import fit_proposed, read_options, slot_of
 from loiter.cli.sentences import argument_names
 from loiter.cli.status import CHECK_FAILED
-from loiter.errors import ImpossibleTime, InvalidArgument
-from loiter.geo import LocalFrame
+from loiter.errors import InvalidArgument
 from loiter.io.document import answer
-from loiter.io.files import FILE_FORMATS, SaveArguments, file_content, is_mission
+from loiter.io.files import FILE_FORMATS, SaveArguments, check_format, file_content, is_mission
 from loiter.io.missions.altitudes import AltitudeReference
 from loiter.io.missions.items import AUTOPILOTS, Autopilot, AutopilotName
 from loiter.io.missions.mission import stored_radius_remark
-from loiter.io.missions.site import Site
-from loiter.planning.arrival import arrivals_at
+from loiter.planning.arrival import best_and_others_at
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Turn
 from loiter.planning.problem import Problem
+from loiter.planning.slot import Slot
 from loiter.planning.solve import best_and_others, best_and_others_in_slot
 from loiter.verify.certificate import Certificate
-from loiter.writing import write_content
 
-Check = Callable[[Maneuver], Certificate]
+# A place on the circle and when to be there: a slot, or a time in seconds from the start and a bearing in degrees.
+Place = Slot | tuple[float, float]
 
 # The options of the command, in the order of its help.
 Lead = Annotated[
@@ -130,66 +130,78 @@ def plan(
     autopilot: AutopilotOrPreset = None,
 ) -> int:
     """Plan the fastest entry onto a holding circle: which turns to fly, for how long, and where to peel off."""
-    (problem, frame), remark = read_options(start, circle, uav, air, fit=fit, datum=waypoints.datum(circle.site))
+    wanted, site = Output(json, pictures, save), circle.site
+    datum = waypoints.datum(site)
+    (problem, frame), remark = read_options(start, circle, uav, air, fit=fit, datum=datum)
     problem = replace(problem, tolerance_m=tolerance)
     if lead:
         problem = problem.later(lead)
-    pictures.check()
-    _check_formats(save)
-    along_path = any(map(is_mission, save)) and waypoints.along_path
+    wanted.check(check_format)
+    has_missions = any(map(is_mission, save))
+    along_path = has_missions and waypoints.along_path
+    place = _place(slot, slot_at, arrive, bearing)
+    if place is not None:
+        _check_free(arrive, slot, tolerance, fenced=fence.read(site) is not None)
     with fit_proposed():
-        if slot is None and slot_at is None and arrive is None and bearing is None:
-            best, others = best_and_others(problem)
-            check: Check = partial(loiter.verify.certify, tolerance_m=tolerance)
-        else:
-            _check_free(arrive, slot, tolerance, fenced=fence.read(circle.site) is not None)
-            if arrive is None and bearing is None:
-                place = slot_of(slot, slot_at)
-                assert place is not None  # the bearing, or the time, is given
-                best, others = best_and_others_in_slot(problem, place)
-                check = partial(loiter.verify.certify_slot, slot=place)
-            else:
-                best, others = _at_time(problem, arrive, bearing)
-                assert arrive is not None  # `_at_time` needs both
-                assert bearing is not None
-                check = partial(loiter.verify.certify_arrival, time_s=arrive, bearing_deg=bearing)
+        best, others, check = _solved(problem, place)
     first, *ties = best
     shown = best if all_ else [first]
     certified = [check(m) for m in shown if certify]
-    # Files are written before pictures: they have more requirements, and if one fails, no picture is left.
-    site, target = circle.site, _target(autopilot, uav)
     fenced = check_fence(fence, site, first, frame)
-    slower = [m for m in others if problem.orbit.turn in (Turn.EITHER, m.turn)]
     entry = fenced.clear_entry(problem) if fenced else None
     # Files and pictures have the plan or, where that is not clear of the fence, the entry that is.
     clear = entry.maneuver if entry else None
-    flown = clear or first
-    written = [*_save(save, flown, frame, uav, waypoints, target, site, whole_path=clear is not None)]
+    flown, target = clear or first, _target(autopilot, uav)
+    written = SaveArguments(
+        maneuver=flown,
+        frame=frame,
+        altitude_m=uav.written_altitude if save else None,
+        datum=datum,
+        spacing_m=waypoints.spacing,
+        chord_error_m=waypoints.chord_error_m,
+        autopilot=target,
+        along_path=along_path or clear is not None,
+        site=site,
+    )
+    # Files are written before pictures: they have more requirements, and if one fails, no picture is left.
+    wanted.write(lambda path: file_content(path, written))
+    beside: list[Path] = []
     if pictures.plot:
         from loiter.plot.picture import draw
 
+        slower = [m for m in others if problem.orbit.turn in (Turn.EITHER, m.turn)]
         slower = slower if all_ else [*ties, *slower]
-        figure = draw([clear] if clear else shown, [first, *slower] if clear else slower, frame=frame, **_drawn(fenced))
-        pictures.save(figure)
-        written += certificates.save_pictures(pictures, certified)
-    if json:
-        fitted = {"fitted_radius_m": problem.orbit.radius_m} if fit else {}
-        led = {"lead_s": lead} if lead else {}
-        checked = {"fence": fenced.document(entry, frame)} if fenced else {}
-        members = fitted | certificates.document(certified) | led | checked | report.files_member(written)
-        report.print_json(answer(best, others, frame) | members)
-    else:
-        remarks = [*([remark] if remark else []), *([report.begins(first, lead, frame)] if lead else [])]
-        report.print_tables(best, others, everything=all_, frame=frame, remark="\n".join(remarks))
-        certificates.print_text(certified)
-        lines: list[RenderableType] = [report.ALONG_PATH] if along_path else []
-        lines += [fenced.check.sentence(frame)] if fenced else []
-        lines += report.clear_entry_lines(entry, frame) if entry else []
-        if any(map(is_mission, save)):
-            lines += _mission_lines(flown, uav, waypoints, target, site)
-        report.write(*lines, *report.files_line(written))
+        drawn = fenced.drawn if fenced else {}
+        wanted.draw(draw([clear] if clear else shown, [first, *slower] if clear else slower, frame=frame, **drawn))
+        beside = _draw_certificate(wanted, certified)
+    document = answer(best, others, frame)
+    document |= {"fitted_radius_m": problem.orbit.radius_m} if fit else {}
+    document |= {"certificate": certified[0].to_dict()} if certified else {}
+    document |= {"lead_s": lead} if lead else {}
+    document |= {"fence": fenced.document(entry, frame)} if fenced else {}
+    lines: list[RenderableType] = [remark] if remark else []
+    lines += [report.begins(first, lead, frame)] if lead else []
+    lines += report.plan_lines(best, others, everything=all_, frame=frame)
+    lines += [Text(f"\n{certificate}") for certificate in certified]
+    lines += [report.ALONG_PATH] if along_path else []
+    lines += fenced.lines(entry, frame) if fenced else []
+    lines += _mission_lines(written) if has_missions else []
+    wanted.show(document, *lines, beside=beside)
     is_clear = fenced is None or fenced.check.clear
     return 0 if is_clear and all(certificate.valid for certificate in certified) else CHECK_FAILED
+
+
+def _place(
+    slot: float | None, slot_at: float | None, arrive_s: float | None, bearing_deg: float | None
+) -> Place | None:
+    """The place of the options; None without one. Raises `InvalidArgument` where one option needs another."""
+    if arrive_s is None and bearing_deg is None:
+        return slot_of(slot, slot_at)
+    if bearing_deg is None:
+        raise InvalidArgument("arrive_s", "needs --bearing, the place at which the circle is joined")
+    if arrive_s is None:
+        raise InvalidArgument("bearing_deg", "needs --arrive, the time at which the circle is joined there")
+    return arrive_s, bearing_deg
 
 
 def _check_free(arrive: float | None, slot: float | None, tolerance: float, *, fenced: bool) -> None:
@@ -202,26 +214,18 @@ def _check_free(arrive: float | None, slot: float | None, tolerance: float, *, f
         raise InvalidArgument(one, f"cannot be combined with {other}")
 
 
-def _at_time(
-    problem: Problem, time_s: float | None, bearing_deg: float | None
-) -> tuple[tuple[Maneuver, ...], tuple[Maneuver, ...]]:
-    """The maneuver that arrives at a place at a time, and that in the other direction if there is one."""
-    if bearing_deg is None:
-        raise InvalidArgument("arrive_s", "needs --bearing, the place at which the circle is joined")
-    if time_s is None:
-        raise InvalidArgument("bearing_deg", "needs --arrive, the time at which the circle is joined there")
+def _solved(
+    problem: Problem, place: Place | None
+) -> tuple[Sequence[Maneuver], Sequence[Maneuver], Callable[[Maneuver], Certificate]]:
+    """The best maneuvers to a place or, without one, onto the circle, the others, and what certifies them."""
+    if place is None:
+        return *best_and_others(problem), partial(loiter.verify.certify, tolerance_m=problem.tolerance_m)
+    if isinstance(place, Slot):
+        return *best_and_others_in_slot(problem, place), partial(loiter.verify.certify_slot, slot=place)
+    time_s, bearing_deg = place
     with argument_names(time_s="arrive_s"):
-        best, *others = arrivals_at(problem, time_s, bearing_deg)
-    if problem.orbit.turn is not Turn.EITHER:
-        with suppress(ImpossibleTime):
-            found = arrivals_at(problem.with_turn(best.turn.other), time_s, bearing_deg)
-            others = [replace(m, orbit=problem.orbit) for m in found]
-    return (best,), tuple(others)
-
-
-def _drawn(fenced: CheckedFence | None) -> dict[str, Any]:
-    """What a picture shows of a fence."""
-    return {} if fenced is None else {"fence": fenced.fence, "breaches": fenced.check.breaches}
+        best, others = best_and_others_at(problem, time_s, bearing_deg)
+    return best, others, partial(loiter.verify.certify_arrival, time_s=time_s, bearing_deg=bearing_deg)
 
 
 def _target(autopilot: AutopilotName | None, uav: AircraftOptions) -> Autopilot:
@@ -232,58 +236,29 @@ def _target(autopilot: AutopilotName | None, uav: AircraftOptions) -> Autopilot:
     return preset.autopilot
 
 
-def _mission_lines(
-    maneuver: Maneuver, uav: AircraftOptions, waypoints: MissionOptions, target: Autopilot, site: Site | None
-) -> list[str]:
-    """Lines on missions that were saved: their altitude, and the radius that is flown where it cannot be stored."""
-    assert uav.altitude is not None  # missions have one
-    datum, known = waypoints.datum(site), site is not None or waypoints.home_altitude is not None
-    lines = report.altitude_lines(uav.altitude, datum, home_known=known)
-    if target == Autopilot.ARDUPILOT:
-        above_sea = None if datum.reference == AltitudeReference.GROUND else datum.above_sea_m(uav.altitude)
-        lines += filter(None, [stored_radius_remark(maneuver.orbit.radius_m, above_sea)])
-    return lines
+def _draw_certificate(wanted: Output, certified: Sequence[Certificate]) -> list[Path]:
+    """Draw u, phi and psi of the first certificate, if any, to entry-certificate.png beside the plan's entry.png.
 
-
-def _check_formats(save: Sequence[Path]) -> None:
-    """Raise `InvalidArgument` for a file name whose format cannot be written."""
-    with argument_names(path="save"):
-        for path in save:
-            loiter.io.check_format(path)
-
-
-def _save(
-    paths: Sequence[Path],
-    maneuver: Maneuver,
-    frame: LocalFrame | None,
-    uav: AircraftOptions,
-    waypoints: MissionOptions,
-    autopilot: Autopilot,
-    site: Site | None,
-    *,
-    whole_path: bool,
-) -> Sequence[Path]:
-    """Write the maneuver to files for maps or autopilots, once the contents of all are known; returns the files.
-
-    With `whole_path` missions follow the maneuver, whatever the options say.
+    Returns the files; errors as for `Output.draw`.
     """
-    of_a_map = SaveArguments(
-        maneuver=maneuver,
-        frame=frame,
-        altitude_m=uav.written_altitude if paths else None,
-        datum=waypoints.datum(site),
-        spacing_m=waypoints.spacing,
-        chord_error_m=waypoints.chord_error_m,
-        autopilot=autopilot,
-        site=site,
-    )
-    # `along_path` refuses options that only fit a path, so it is asked for missions alone.
-    contents = [
-        file_content(path, of_a_map._replace(along_path=waypoints.along_path or whole_path))
-        if is_mission(path)
-        else file_content(path, of_a_map)
-        for path in paths
-    ]
-    for path, content in zip(paths, contents, strict=True):
-        write_content("save", path, content)
+    # A path that arrives at a given time has no adjoint to draw.
+    if not certified or (certified[0].maneuver.segments and not certified[0].pieces):
+        return []
+    from loiter.plot.certificate import draw
+
+    paths = [plot.with_stem(f"{plot.stem}-certificate") for plot in wanted.pictures.plot]
+    wanted.draw(draw(certified[0]), paths)
     return paths
+
+
+def _mission_lines(written: SaveArguments) -> list[str]:
+    """Lines on missions that were saved: their altitude, and the radius that is flown where it cannot be stored."""
+    datum, altitude_m = written.datum, written.altitude_m
+    assert altitude_m is not None  # missions have one
+    lines = report.altitude_lines(
+        altitude_m, datum, home_known=written.site is not None or datum.home_altitude_m is not None
+    )
+    if written.autopilot == Autopilot.ARDUPILOT:
+        above_sea = None if datum.reference == AltitudeReference.GROUND else datum.above_sea_m(altitude_m)
+        lines += filter(None, [stored_radius_remark(written.maneuver.orbit.radius_m, above_sea)])
+    return lines

@@ -10,7 +10,7 @@ from pathlib import Path
 from statistics import median
 from typing import Any, NamedTuple
 
-from loiter.cli.options import Output
+from loiter.cli.output import Output
 from loiter.cli.report import json_value
 from loiter.errors import InvalidArgument, MissingPackage
 from loiter.io.flight_log import check_columns, read_log
@@ -43,7 +43,7 @@ def replay(log: Path, wanted: Output) -> None:
     if wanted.pictures.plot:
         from loiter.plot.guided import draw
 
-        wanted.pictures.save(draw(columns))
+        wanted.draw(draw(columns))
     stages, held = list(_stages_flown(columns)), _held(columns)
     document = {
         "steps": len(columns["time_s"]),

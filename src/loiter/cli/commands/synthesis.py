@@ -1,6 +1,5 @@
 """`loiter synthesis`: the optimal synthesis of the reduced plane, as a table, a picture and arrays."""
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -11,7 +10,8 @@ from rich.table import Table
 from loiter.arrays.partition import BOUNDARIES, Boundary, Partition, boundaries, partition
 from loiter.cli import report
 from loiter.cli.numbers import turn_name, whole
-from loiter.cli.options import MapPictureOptions, output
+from loiter.cli.options import Files, Json, MapPictureOptions
+from loiter.cli.output import Output
 from loiter.errors import InvalidArgument
 from loiter.planning.model import TurnName
 from loiter.writing import write_whole
@@ -36,43 +36,32 @@ def synthesis(
             help="What the picture shows: the optimal word, the least time, or what a free choice of direction saves."
         ),
     ] = "words",
-    json: Annotated[
-        bool, Parameter(group=output, help="Print one JSON object: the map's settings, and its curves.")
-    ] = False,
+    json: Annotated[Json, Parameter(help="Print one JSON object: the map's settings, and its curves.")] = False,
     pictures: MapPictureOptions = MapPictureOptions(),
-    save: Annotated[
-        tuple[Path, ...],
-        Parameter(group=output, metavar="FILE", help="Write the map and the curves as arrays: .npz; may be repeated."),
-    ] = (),
+    save: Annotated[Files, Parameter(help="Write the map and the curves as arrays: .npz; may be repeated.")] = (),
 ) -> None:
     """Map the optimal synthesis of the reduced plane: the fastest word in each region, and the curves between them."""
-    pictures.check()
-    _check_options(turn, show, save)
-    regions = partition(radius, turn, reach=reach, cells=cells)
-    curves = boundaries(regions)
-    if pictures.plot:
-        from loiter.plot.synthesis import draw
-
-        pictures.save(draw(regions, curves, show))
-    for path in save:
-        write_arrays(path, regions, curves)
-    written = [*pictures.plot, *save]
-    if json:
-        report.print_json(document(regions, curves) | report.files_member(written))
-    else:
-        report.write(table(curves), *report.files_line(written))
-
-
-def _check_options(turn: TurnName, show: str, save: Sequence[Path]) -> None:
-    """Raise `InvalidArgument` for file names and options that cannot be used."""
-    for path in save:
-        if path.suffix.lower() != ".npz":
-            raise InvalidArgument("save", f"is {str(path)!r}: the file name must end in .npz")
+    output = Output(json, pictures, save)
+    output.check(_check_format)
     if show == "worth" and turn == "either":
         raise InvalidArgument(
             "show",
             "is 'worth': it compares a free choice of direction with one direction, so give --turn cw or ccw",
         )
+    regions = partition(radius, turn, reach=reach, cells=cells)
+    curves = boundaries(regions)
+    if pictures.plot:
+        from loiter.plot.synthesis import draw
+
+        output.draw(draw(regions, curves, show))
+    for path in save:
+        write_arrays(path, regions, curves)
+    output.show(document(regions, curves), table(curves))
+
+
+def _check_format(path: Path) -> None:
+    if path.suffix.lower() != ".npz":
+        raise InvalidArgument("save", f"is {str(path)!r}: the file name must end in .npz")
 
 
 def table(curves: tuple[Boundary, ...]) -> Table:

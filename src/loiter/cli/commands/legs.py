@@ -1,0 +1,372 @@
+"""`loiter leg` and `loiter land`: in, round and out of a circle, to a point or down onto a runway."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Annotated, NamedTuple
+
+from cyclopts import Group, Parameter
+from rich.console import RenderableType
+
+from loiter.cli import report
+from loiter.cli.fences import LegFenceOptions, check_fence
+from loiter.cli.numbers import (
+    altitude,
+    angle,
+    check_declination,
+    direction,
+    latitude,
+    longitude,
+    metres,
+    one,
+    several,
+    turn_name,
+)
+from loiter.cli.options import (
+    AircraftOptions,
+    AutopilotChoice,
+    ClimbRate,
+    DescentRate,
+    Files,
+    Fit,
+    Json,
+    OrbitOptions,
+    PictureOptions,
+    StartOptions,
+    WindOptions,
+    way_out,
+    written_altitude,
+)
+from loiter.cli.output import Output
+from loiter.cli.scenes import fit_proposed, read_options, start_pose
+from loiter.cli.sentences import argument_names
+from loiter.cli.status import CHECK_FAILED
+from loiter.errors import InvalidArgument
+from loiter.geo import LocalFrame, density_ratio
+from loiter.geo.atmosphere import LAPSE_K_PER_M
+from loiter.io.legs import check_leg_format, leg_content
+from loiter.io.missions.items import AUTOPILOTS, AutopilotName
+from loiter.io.missions.parameters import Preset
+from loiter.io.missions.site import Site
+from loiter.planning.landing import Landing, LandingPlan, Runway, plan_landing
+from loiter.planning.leg import Leg, LegPlan, plan_leg
+from loiter.planning.model import Aircraft, Turn, TurnName
+from loiter.planning.problem import Problem
+
+Save = Annotated[
+    Files,
+    Parameter(
+        help="Write the leg to a file: .kml with its altitudes, .plan or .waypoints as a mission whose loiter ends on "
+        "the tangent; may be repeated. Altitudes are above mean sea level.",
+    ),
+]
+
+# The options of `loiter leg`, in the order of its help.
+ExitTo = Annotated[
+    tuple[float, float] | None,
+    Parameter(
+        group=way_out,
+        converter=several(metres, metres),
+        metavar="EAST NORTH",
+        help="The point that the aircraft flies to from the circle, on a tangent: metres.",
+    ),
+]
+ExitToDegrees = Annotated[
+    tuple[float, float] | None,
+    Parameter(
+        group=way_out,
+        converter=several(latitude, longitude),
+        metavar="LAT LON",
+        help="The same in WGS84 degrees, with --pose-lla and --orbit-lla.",
+    ),
+]
+Hold = Annotated[
+    float, Parameter(group=way_out, metavar="SECONDS", help="Least time on the circle, from joining to the exit.")
+]
+Turns = Annotated[float, Parameter(group=way_out, metavar="N", help="Least number of turns on the circle.")]
+ToAltitude = Annotated[
+    float | None,
+    Parameter(
+        group=way_out,
+        converter=one(altitude),
+        metavar="METRES",
+        help="Altitude at the exit; --altitude is that at the start. The climb or descent begins at once.",
+    ),
+]
+
+runway_group = Group("The runway and the circle beside its final approach", sort_key=1)
+
+# The options of `loiter land`, in the order of its help.
+Threshold = Annotated[
+    tuple[float, float, float] | None,
+    Parameter(
+        group=runway_group,
+        converter=several(metres, metres, direction),
+        metavar="EAST NORTH HEADING",
+        help="The threshold, metres, and the direction of landing in degrees clockwise from north.",
+    ),
+]
+ThresholdDegrees = Annotated[
+    tuple[float, float, float] | None,
+    Parameter(
+        group=runway_group,
+        converter=several(latitude, longitude, direction),
+        metavar="LAT LON HEADING",
+        help="The same with WGS84 degrees and true north, with --pose-lla.",
+    ),
+]
+Elevation = Annotated[
+    float, Parameter(group=runway_group, converter=one(altitude), metavar="METRES", help="Altitude of the threshold.")
+]
+GlideSlope = Annotated[
+    float,
+    Parameter(group=runway_group, converter=one(angle), metavar="DEGREES", help="Glide slope, over the ground."),
+]
+ThresholdHeight = Annotated[
+    float,
+    Parameter(
+        group=runway_group, converter=one(metres), metavar="METRES", help="Height of the glide slope at the threshold."
+    ),
+]
+Radius = Annotated[
+    float | None,
+    Parameter(
+        group=runway_group,
+        converter=one(metres),
+        metavar="METRES",
+        help="Radius of the circle; that of --params if absent.",
+    ),
+]
+Final = Annotated[
+    float,
+    Parameter(
+        group=runway_group,
+        converter=one(metres),
+        metavar="METRES",
+        help="Least length of the final approach, from the circle to the threshold.",
+    ),
+]
+LandingTurn = Annotated[
+    TurnName,
+    Parameter(
+        group=runway_group,
+        converter=turn_name,
+        help="Direction of flight around the circle: cw lies to the right of the approach, ccw to the left; either: "
+        "the faster one.",
+    ),
+]
+
+
+def leg(
+    *,
+    start: StartOptions = StartOptions(),
+    circle: OrbitOptions = OrbitOptions(),
+    uav: AircraftOptions = AircraftOptions(),
+    air: WindOptions = WindOptions(),
+    fence: LegFenceOptions = LegFenceOptions(),
+    fit: Fit = False,
+    exit_to: ExitTo = None,
+    exit_to_lla: ExitToDegrees = None,
+    hold: Hold = 0.0,
+    turns: Turns = 0.0,
+    to_altitude: ToAltitude = None,
+    climb_rate: ClimbRate = None,
+    descent_rate: DescentRate = None,
+    save: Save = (),
+    autopilot: AutopilotChoice = "ardupilot",
+    json: Json = False,
+    pictures: PictureOptions = PictureOptions(),
+) -> int:
+    """Plan the fastest way in, round and out of a holding circle towards a point."""
+    airspeeds = leg_airspeeds(uav, to_altitude, "to_altitude_m")
+    (problem, frame), remark = read_options(start, circle, airspeeds.highest, air, fit=fit)
+    output = Output(json, pictures, save)
+    output.check(check_leg_format)
+    if to_altitude is not None and uav.altitude is None:
+        raise InvalidArgument("altitude_m", "is needed with --to-altitude: it is the altitude at the start")
+    start_at, point = replace(problem.pose, altitude_m=uav.altitude), exit_place(exit_to, exit_to_lla, frame)
+    with argument_names(altitude_m="to_altitude_m"):
+        asked = Leg(start_at, problem.orbit, point, hold_s=hold, turns=turns, altitude_m=to_altitude)
+    with fit_proposed():
+        problem.in_wind()  # raises where the circle cannot be held in the thinnest air of the leg
+        plan = plan_leg(asked, with_rates(airspeeds.planned, climb_rate, descent_rate), problem.wind)
+    return show(plan, frame, output, autopilot, fence, circle.site, remark, airspeeds.remark)
+
+
+def exit_place(
+    exit_to: tuple[float, float] | None, exit_to_lla: tuple[float, float] | None, frame: LocalFrame | None
+) -> tuple[float, float]:
+    """The point flown to, metres; raises `InvalidArgument` unless it is given once, in the units of the circle."""
+    if (exit_to is None) == (exit_to_lla is None):
+        raise InvalidArgument("exit_to", "or --exit-to-lla is needed, and not both")
+    if (exit_to_lla is None) != (frame is None):
+        raise InvalidArgument("exit_to", "has the units of the circle: --exit-to-lla goes with --orbit-lla")
+    if exit_to_lla is None or frame is None:
+        assert exit_to is not None  # one of them is given
+        return exit_to
+    east, north = frame.to_local(*exit_to_lla)
+    return float(east), float(north)
+
+
+def land(
+    *,
+    start: StartOptions = StartOptions(),
+    runway: Threshold = None,
+    runway_lla: ThresholdDegrees = None,
+    elevation: Elevation,
+    glide_slope: GlideSlope = 3.0,
+    threshold_height: ThresholdHeight = 15.0,
+    radius: Radius = None,
+    final: Final,
+    turn: LandingTurn = "either",
+    uav: AircraftOptions = AircraftOptions(),
+    climb_rate: ClimbRate = None,
+    descent_rate: DescentRate = None,
+    air: WindOptions = WindOptions(),
+    fence: LegFenceOptions = LegFenceOptions(),
+    save: Save = (),
+    autopilot: AutopilotChoice = "ardupilot",
+    json: Json = False,
+    pictures: PictureOptions = PictureOptions(),
+) -> int:
+    """Plan the fastest landing by a circle beside the final approach."""
+    output = Output(json, pictures, save)
+    output.check(check_leg_format)
+    if uav.altitude is None:
+        raise InvalidArgument("altitude_m", "is needed: it is the altitude at the start")
+    (east_m, north_m, heading_deg), frame = _threshold(start, runway, runway_lla, air)
+    target = Runway(
+        east_m,
+        north_m,
+        air.true_heading("runway heading_deg", heading_deg),
+        elevation,
+        glide_slope,
+        threshold_height,
+    )
+    begun = replace(start_pose(start, air, frame), altitude_m=written_altitude(uav.altitude))
+    landing = Landing(begun, target, _radius_m(radius, uav.preset), final, Turn(turn))
+    airspeeds = leg_airspeeds(uav, elevation, "runway altitude_m")
+    plan = plan_landing(landing, with_rates(airspeeds.planned, climb_rate, descent_rate), air.moving_air)
+    # Raises where the circle cannot be held in the thinnest air of the landing.
+    Problem(begun, plan.leg.orbit, airspeeds.highest.aircraft, air.moving_air).in_wind()
+    remarks = airspeeds.highest.remark, airspeeds.remark
+    return show(plan, frame, output, autopilot, fence, None, *remarks)
+
+
+def _threshold(
+    start: StartOptions,
+    runway: tuple[float, float, float] | None,
+    runway_lla: tuple[float, float, float] | None,
+    air: WindOptions,
+) -> tuple[tuple[float, float, float], LocalFrame | None]:
+    """The threshold in metres with the heading, and the local frame about it if it is in degrees."""
+    given = (air.wind, start.pose, start.pose_lla, runway, runway_lla)
+    check_declination(air.declination, *(values[-1] for values in given if values))
+    if (runway is None) == (runway_lla is None):
+        raise InvalidArgument("runway", "or --runway-lla is needed, and not both")
+    if (start.pose is None) == (start.pose_lla is None):
+        raise InvalidArgument("pose", "or --pose-lla is needed, and not both")
+    if (start.pose_lla is None) != (runway_lla is None):
+        raise InvalidArgument("pose_lla", "and --runway-lla go together: places in degrees, or both in metres")
+    if runway_lla is None:
+        assert runway is not None  # one of them is given
+        return runway, None
+    lat, lon, heading_deg = runway_lla
+    with argument_names(
+        **{"origin latitude_deg": "threshold latitude_deg", "origin longitude_deg": "threshold longitude_deg"}
+    ):
+        return (0.0, 0.0, heading_deg), LocalFrame(lat, lon)
+
+
+def _radius_m(radius_m: float | None, preset: Preset | None) -> float:
+    """The radius of the option, or of the parameter file."""
+    found = preset.loiter_radius_m if radius_m is None and preset is not None else radius_m
+    if found is None:
+        raise InvalidArgument("radius_m", "is needed, or --params with the radius of loiters")
+    return found
+
+
+def show(
+    plan: LegPlan,
+    frame: LocalFrame | None,
+    output: Output,
+    autopilot: AutopilotName,
+    fence: LegFenceOptions,
+    site: Site | None,
+    *remarks: str,
+) -> int:
+    """Write the files and print the leg; the exit status says whether it is clear of the fence."""
+    fenced = check_fence(fence, site, plan, frame)
+    if output.save and frame is None:
+        raise InvalidArgument("save", "needs places on Earth, of which all are given in degrees: --pose-lla")
+    if frame is not None:
+        on_earth, placed = frame, fenced and fenced.placed
+        output.write(lambda path: leg_content(plan, path, on_earth, AUTOPILOTS[autopilot], placed))
+    if output.pictures.plot:
+        from loiter.plot.leg import draw
+
+        output.draw(draw(plan, frame=frame, **(fenced.drawn if fenced else {})))
+    checked = {"fence": fenced.document(None, frame)} if fenced else {}
+    lines = [*filter(None, remarks), *leg_lines(plan, frame), *(fenced.lines(None, frame) if fenced else [])]
+    output.show(plan.to_dict() | checked, *lines)
+    return 0 if fenced is None or fenced.check.clear else CHECK_FAILED
+
+
+class LegAirspeeds(NamedTuple):
+    """The aircraft of a leg, whose true airspeed rises in thinner air where an indicated one is given.
+
+    `planned` has that halfway between the altitudes, `highest` are the options where it is largest and turns are
+    widest; `remark` is a line on the difference, or "".
+    """
+
+    planned: Aircraft
+    highest: AircraftOptions
+    remark: str
+
+
+def leg_airspeeds(uav: AircraftOptions, other_m: float | None, argument: str) -> LegAirspeeds:
+    """The airspeeds between the altitude of the options and another one, metres, which `argument` gave.
+
+    Raises `InvalidArgument` for an altitude without air of the standard atmosphere.
+    """
+    if uav.altitude is None or other_m is None or uav.indicated_m_s is None or uav.altitude == other_m:
+        return LegAirspeeds(uav.aircraft, uav, "")
+    with argument_names(altitude_m=argument):
+        density_ratio(other_m)
+    halfway = _at(uav, 0.5 * (uav.altitude + other_m)).aircraft
+    remark = f"Planned with that halfway between both altitudes, {halfway.airspeed_m_s:.4g} m/s."
+    return LegAirspeeds(halfway, uav if uav.altitude > other_m else _at(uav, other_m), remark)
+
+
+def _at(uav: AircraftOptions, altitude_m: float) -> AircraftOptions:
+    """The aircraft at another altitude; a temperature falls with it as in the standard atmosphere."""
+    temperature = uav.temperature
+    if temperature is not None and uav.altitude is not None:
+        temperature -= LAPSE_K_PER_M * (altitude_m - uav.altitude)
+    return replace(uav, altitude=altitude_m, temperature=temperature)
+
+
+def with_rates(aircraft: Aircraft, climb_rate_m_s: float | None, descent_rate_m_s: float | None) -> Aircraft:
+    """The aircraft with the rates of the options."""
+    return replace(aircraft, climb_rate_m_s=climb_rate_m_s, descent_rate_m_s=descent_rate_m_s)
+
+
+def leg_lines(plan: LegPlan, frame: LocalFrame | None) -> list[RenderableType]:
+    """Headline, the table of the entry, the exit and the altitude."""
+    entry = plan.entry
+    lines: list[RenderableType] = [report.headline(str(plan))]
+    lines += [report.weather(entry)] if entry.wind.speed_m_s > 0.0 else []
+    lines.append(report.leg_table(plan, frame))
+    if plan.leg.climb_m != 0.0:
+        change = "climbs" if plan.leg.climb_m > 0.0 else "descends"
+        lines.append(
+            f"The aircraft {change} by {abs(plan.leg.climb_m):.4g} m from the start to the exit at the latest."
+        )
+    if isinstance(plan, LandingPlan):
+        runway, beyond_m = plan.runway, plan.runway.threshold_height_m / plan.runway.descent
+        lines.append(
+            f"Glide slope {runway.glide_slope_deg:g} deg from {plan.exit_altitude_m:.4g} m, "
+            f"{plan.sink_rate_m_s:.3g} m/s down: {runway.threshold_height_m:g} m above the threshold, "
+            f"on the runway {beyond_m:.0f} m beyond it."
+        )
+    return lines
