@@ -162,6 +162,7 @@ ABOVE_KERNEL = (
     ("loiter.planning.slot", "slot_pose"),
     ("loiter.planning.compass", "heading_vector"),
     ("loiter.planning.maneuver", "Maneuver"),
+    ("loiter.planning.drawing", "drawn_svg"),
     ("loiter.geo.frame", "LocalFrame"),
     ("loiter.io.document", "PlacedProblem"),
     ("loiter.arrays.partition", "_kind"),

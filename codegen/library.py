@@ -230,7 +230,6 @@ UNUSED = {
     "LocalFrame": {"pose", "_swapped_hint", "_reaches"},
     "Certificate": {"residual", "__str__", "claim", "source", "comparison", "ties"},
     "SlotCertificate": {"residual", "__str__", "claim", "source", "comparison", "ties"},
-    "Drawing": {"html"},
 }
 
 

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from html import escape
 from math import atan2, degrees
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from loiter.planning.compass import heading_vector
 from loiter.planning.flight import along
 from loiter.planning.model import Aircraft, Orbit, Pose, Segment, Turn, Wind
+
+if TYPE_CHECKING:
+    from loiter.planning.maneuver import Maneuver
 
 # Okabe and Ito's palette, as in the pictures of `loiter.plot`.
 COLOURS = {"L": "#009E73", "S": "#0072B2", "R": "#D55E00"}
@@ -48,48 +51,37 @@ def _view_of(points: list[tuple[float, float]]) -> _View:
     return _View(0.5 * (max(east) + min(east)), 0.5 * (max(north) + min(north)), scale, pixels)
 
 
-class Drawing(NamedTuple):
-    """What a drawing shows of a maneuver: its path, and the circle when it is joined."""
+def drawn_svg(maneuver: Maneuver) -> str:
+    """The track over the ground, coloured by control, with the circle when it is joined, start, switches and join."""
+    tracks = [(segment.letter, _track(segment, maneuver.aircraft, maneuver.wind)) for segment in maneuver.segments]
+    circle = maneuver.orbit_at_join
+    east, north, radius = circle.east_m, circle.north_m, circle.radius_m
+    corners = [(east - radius, north - radius), (east + radius, north + radius)]
+    start = (maneuver.start.east_m, maneuver.start.north_m)
+    view = _view_of([*corners, start, *(point for _, track in tracks for point in track)])
+    centre_x, centre_y = view.pixels(east, north).split(",")
+    title, height = escape(str(maneuver)), f"{view.height:.0f}"
+    size = f'width="{WIDTH:.0f}" height="{height}" viewBox="0 0 {WIDTH:.0f} {height}"'
+    ring = f'cx="{centre_x}" cy="{centre_y}" r="{view.scale * radius:.1f}"'
+    parts = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" role="img" aria-label="{title}" {size}>',
+        f"<title>{title}</title>",
+        '<rect width="100%" height="100%" fill="white"/>',
+        f'<circle {ring} fill="none" stroke="black" stroke-width="{THIN}"/>',
+        *(_direction(view, circle, maneuver.turn, quarter) for quarter in range(4)),
+        *(_line(view, letter, track) for letter, track in tracks),
+        *(_dot(view, segment.start, "white") for segment in maneuver.segments[1:]),
+        _dot(view, maneuver.join, "black"),
+        _aircraft(view, maneuver.start),
+        "</svg>",
+    ]
+    return "\n".join(parts)
 
-    title: str
-    start: Pose
-    segments: tuple[Segment, ...]
-    join: Pose
-    circle: Orbit
-    turn: Turn
-    aircraft: Aircraft
-    wind: Wind
 
-    def svg(self) -> str:
-        """The track over the ground, coloured by control, with the circle, start, switches and join marked."""
-        tracks = [(segment.letter, _track(segment, self.aircraft, self.wind)) for segment in self.segments]
-        circle = self.circle
-        east, north, radius = circle.east_m, circle.north_m, circle.radius_m
-        corners = [(east - radius, north - radius), (east + radius, north + radius)]
-        start = (self.start.east_m, self.start.north_m)
-        view = _view_of([*corners, start, *(point for _, track in tracks for point in track)])
-        centre_x, centre_y = view.pixels(east, north).split(",")
-        title, height = escape(self.title), f"{view.height:.0f}"
-        size = f'width="{WIDTH:.0f}" height="{height}" viewBox="0 0 {WIDTH:.0f} {height}"'
-        ring = f'cx="{centre_x}" cy="{centre_y}" r="{view.scale * radius:.1f}"'
-        parts = [
-            f'<svg xmlns="http://www.w3.org/2000/svg" role="img" aria-label="{title}" {size}>',
-            f"<title>{title}</title>",
-            '<rect width="100%" height="100%" fill="white"/>',
-            f'<circle {ring} fill="none" stroke="black" stroke-width="{THIN}"/>',
-            *(_direction(view, self.circle, self.turn, quarter) for quarter in range(4)),
-            *(_line(view, letter, track) for letter, track in tracks),
-            *(_dot(view, segment.start, "white") for segment in self.segments[1:]),
-            _dot(view, self.join, "black"),
-            _aircraft(view, self.start),
-            "</svg>",
-        ]
-        return "\n".join(parts)
-
-    def html(self) -> str:
-        """The SVG with the maneuver in words below it."""
-        caption = f'<figcaption style="font: {TEXT:.0f}px sans-serif">{escape(self.title)}</figcaption>'
-        return f'<figure style="margin: 0">{self.svg()}{caption}</figure>'
+def drawn_html(maneuver: Maneuver) -> str:
+    """The SVG with the maneuver in words below it."""
+    caption = f'<figcaption style="font: {TEXT:.0f}px sans-serif">{escape(str(maneuver))}</figcaption>'
+    return f'<figure style="margin: 0">{drawn_svg(maneuver)}{caption}</figure>'
 
 
 def _direction(view: _View, circle: Orbit, turn: Turn, quarter: int) -> str:

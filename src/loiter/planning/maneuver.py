@@ -8,7 +8,7 @@ from importlib import import_module
 from typing import Any
 
 from loiter.errors import InvalidArgument, MissingPackage, instance, positive
-from loiter.planning.drawing import Drawing
+from loiter.planning.drawing import drawn_html, drawn_svg
 from loiter.planning.flight import over_ground, samples, setpoints
 from loiter.planning.hold import Hold
 from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Samples, Segment, Setpoints, Turn, Wind
@@ -122,23 +122,11 @@ class Maneuver:
 
     def _repr_svg_(self) -> str:
         """A drawing, for notebooks."""
-        return self._drawing().svg()
+        return drawn_svg(self)
 
     def _repr_html_(self) -> str:
         """A drawing with a caption, for notebooks."""
-        return self._drawing().html()
-
-    def _drawing(self) -> Drawing:
-        return Drawing(
-            title=str(self),
-            start=self.start,
-            segments=self.segments,
-            join=self.join,
-            circle=self.orbit_at_join,
-            turn=self.turn,
-            aircraft=self.aircraft,
-            wind=self.wind,
-        )
+        return drawn_html(self)
 
 
 def decimals_of(orbit: Orbit) -> int:

@@ -18,12 +18,14 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 from loiter.errors import InvalidArgument
 from loiter.planning.model import TurnName
 from loiter.version import __version__
-from loiter.web import models, openapi, problems
+from loiter.web import models, problems
 from loiter.web.answers import exports, plans
 from loiter.web.answers.synthesis import DEFAULT_CELLS, MAX_CELLS, synthesis
 from loiter.web.headers import LoopbackHosts, SecurityHeaders, map_headers
 from loiter.web.limits import Limits
 from loiter.web.pool import BoundedPool
+
+SUMMARY = "The fastest way onto a holding circle for a fixed-wing aircraft."
 
 STATIC = Path(__file__).with_name("static")
 
@@ -44,9 +46,16 @@ def create_app(cors: str | None = None, loopback_host: str | None = None) -> ASG
 
     With `loopback_host`, the address that a server on loopback listens on, requests for other hosts are refused.
     """
-    api = FastAPI(title="loiter", version=__version__, docs_url=None, redoc_url=None, redirect_slashes=False)
+    api = FastAPI(
+        title="loiter",
+        version=__version__,
+        summary=SUMMARY,
+        responses=problems.REFUSALS,
+        docs_url=None,
+        redoc_url=None,
+        redirect_slashes=False,
+    )
     problems.install(api)
-    openapi.install(api)
     pool = BoundedPool(THREADS, MAX_REQUESTS)
     _add_plans(api, pool)
     _add_maps(api, pool)

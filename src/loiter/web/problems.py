@@ -70,6 +70,24 @@ VALIDATION_SENTENCES = {
 }
 
 
+# The refusals that every operation of the OpenAPI document lists.
+REFUSALS: dict[int | str, dict[str, Any]] = {
+    int(status): {
+        "description": description,
+        "content": {MEDIA_TYPE: {"schema": {"$ref": "#/components/schemas/Problem"}}},
+    }
+    for status, description in {
+        HTTPStatus.BAD_REQUEST: "The request is not valid JSON.",
+        HTTPStatus.REQUEST_TIMEOUT: "The body arrived too slowly.",
+        HTTPStatus.REQUEST_ENTITY_TOO_LARGE: "The body is too large.",
+        HTTPStatus.UNSUPPORTED_MEDIA_TYPE: "The content type of the body is not application/json.",
+        HTTPStatus.UNPROCESSABLE_ENTITY: "The request does not fit the schema, or the library refuses it; see the type.",
+        HTTPStatus.REQUEST_HEADER_FIELDS_TOO_LARGE: "The address or the headers are too large.",
+        HTTPStatus.SERVICE_UNAVAILABLE: "Too many requests at once: try again later.",
+    }.items()
+}
+
+
 class Detail(BaseModel):
     """One error and its place: a JSON pointer into the body, or the name of a parameter."""
 
@@ -120,7 +138,16 @@ def problem(
 
 
 def install(app: FastAPI) -> None:
-    """Make the app answer every exception with a problem document."""
+    """Make the app answer every exception with a problem document, whose schema its OpenAPI document has."""
+    document = app.openapi
+
+    def openapi() -> dict[str, Any]:
+        schema = document()
+        problem = ProblemDocument.model_json_schema(ref_template="#/components/schemas/{model}")
+        schema["components"]["schemas"] |= problem.pop("$defs") | {"Problem": problem}
+        return schema
+
+    app.openapi = openapi  # type: ignore[method-assign]
     app.add_exception_handler(LoiterError, _library_error)
     app.add_exception_handler(RequestValidationError, _validation_error)
     app.add_exception_handler(HTTPException, _http_error)

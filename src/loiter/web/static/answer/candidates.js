@@ -2,11 +2,10 @@
 /**
  * The list of candidates: the optimal maneuvers, then the others with how much later they join.
  *
- * @typedef {import("../state/store.js").Store} Store
- * @typedef {import("../state/page_state.js").PageState} PageState
- * @typedef {import("../state/actions.js").Actions} Actions
- * @typedef {import("../shared/types.js").Maneuver} Maneuver
- * @typedef {import("../shared/types.js").Scene} Scene
+ * @import {Store} from "../state/store.js"
+ * @import {PageState} from "../state/page_state.js"
+ * @import {Actions} from "../state/actions.js"
+ * @import {Maneuver, Scene} from "../shared/types.js"
  */
 import { byId, fill, part, watchPointed } from "../shared/dom.js";
 import { DIRECTIONS, DIRECTION_ARROWS, isAllowed, splitAnswer, wordLabel } from "../shared/maneuver.js";

@@ -2,12 +2,9 @@
 /**
  * The headline and the numbers of the plan.
  *
- * @typedef {import("../state/store.js").Store} Store
- * @typedef {import("../state/page_state.js").PageState} PageState
- * @typedef {import("../shared/types.js").Answer} Answer
- * @typedef {import("../shared/types.js").Maneuver} Maneuver
- * @typedef {import("../shared/types.js").Scene} Scene
- * @typedef {import("../shared/types.js").Segment} Segment
+ * @import {Store} from "../state/store.js"
+ * @import {PageState} from "../state/page_state.js"
+ * @import {Answer, Maneuver, Scene, Segment} from "../shared/types.js"
  */
 import { byId, fill, part } from "../shared/dom.js";
 import { DIRECTIONS, DIRECTION_ARROWS, splitAnswer, wordLabel } from "../shared/maneuver.js";

@@ -3,8 +3,8 @@
  * What the page says about the fence: whether the plan stays clear, where it enters and how deep, and the fastest clear
  * entry.
  *
- * @typedef {import("../state/store.js").Store} Store
- * @typedef {import("../state/page_state.js").PageState} PageState
+ * @import {Store} from "../state/store.js"
+ * @import {PageState} from "../state/page_state.js"
  */
 import { zonesOf } from "../scene/fence.js";
 import { byId, setText, show } from "../shared/dom.js";

@@ -2,9 +2,9 @@
 /**
  * What the page says of a leg: its numbers in place of those of the entry, and what holds for it.
  *
- * @typedef {import("../state/store.js").Store} Store
- * @typedef {import("../state/page_state.js").PageState} PageState
- * @typedef {import("../shared/types.js").LegPlan} LegPlan
+ * @import {Store} from "../state/store.js"
+ * @import {PageState} from "../state/page_state.js"
+ * @import {LegPlan} from "../shared/types.js"
  */
 import { byId, fill, part, show } from "../shared/dom.js";
 import { DIRECTIONS, wordLabel } from "../shared/maneuver.js";

@@ -3,8 +3,8 @@
  * The message over the plan view, and a scene without a plan: the page says why, disables everything that needs the
  * plan, shows the previous plan faintly, and offers a radius for a circle that is too small.
  *
- * @typedef {import("../state/store.js").Store} Store
- * @typedef {import("../state/actions.js").Actions} Actions
+ * @import {Store} from "../state/store.js"
+ * @import {Actions} from "../state/actions.js"
  */
 import { withOrbit } from "../scene/scene.js";
 import { byId, html, show } from "../shared/dom.js";

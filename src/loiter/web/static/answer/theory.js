@@ -3,7 +3,7 @@
  * The theory behind the plan: the verdict of the certificate, the lines of phi and psi, and the reduced plane. It is
  * open on wide screens, and behind the button "Why" on others.
  *
- * @typedef {import("../state/store.js").Store} Store
+ * @import {Store} from "../state/store.js"
  */
 import { byId, show } from "../shared/dom.js";
 

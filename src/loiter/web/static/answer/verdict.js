@@ -2,10 +2,9 @@
 /**
  * The verdict of the certificate in words.
  *
- * @typedef {import("../state/store.js").Store} Store
- * @typedef {import("../state/page_state.js").PageState} PageState
- * @typedef {import("../shared/types.js").Certificate} Certificate
- * @typedef {import("../shared/types.js").Scene} Scene
+ * @import {Store} from "../state/store.js"
+ * @import {PageState} from "../state/page_state.js"
+ * @import {Certificate, Scene} from "../shared/types.js"
  */
 import { legVerdict } from "./leg_view.js";
 import { byId } from "../shared/dom.js";

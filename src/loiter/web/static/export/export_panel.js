@@ -2,11 +2,11 @@
 /**
  * The buttons that save the plan in a file, or copy its command line, its Python or its link.
  *
- * @typedef {import("../state/store.js").Store} Store
- * @typedef {import("../state/actions.js").Actions} Actions
- * @typedef {import("../fields/fields.js").Fields} Fields
- * @typedef {import("../state/page_state.js").FieldErrors} FieldErrors
- * @typedef {import("./formats.js").Format} Format
+ * @import {Store} from "../state/store.js"
+ * @import {Actions} from "../state/actions.js"
+ * @import {Fields} from "../fields/fields.js"
+ * @import {FieldErrors} from "../state/page_state.js"
+ * @import {Format} from "./formats.js"
  */
 import { refusalOf } from "../fields/field_names.js";
 import { fileOf } from "../requests/api.js";

@@ -2,10 +2,9 @@
 /**
  * The file formats of the service, and what each file needs.
  *
- * @typedef {import("../shared/types.js").Altitude} Altitude
- * @typedef {import("../state/page_state.js").FieldErrors} FieldErrors
- * @typedef {import("../state/page_state.js").PageState} PageState
- * @typedef {import("../fields/fields.js").Fields} Fields
+ * @import {Altitude} from "../shared/types.js"
+ * @import {FieldErrors, PageState} from "../state/page_state.js"
+ * @import {Fields} from "../fields/fields.js"
  *
  * @typedef {"map" | "table" | "mission" | "picture"} Kind
  * @typedef {{format: string, name: string, use: string, kind: Kind, about?: string}} Format

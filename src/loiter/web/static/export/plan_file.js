@@ -3,10 +3,9 @@
  * A mission of QGroundControl, dropped on the page or opened: its first loiter is the circle, and the place before it
  * that of the aircraft.
  *
- * @typedef {import("../shared/types.js").Scene} Scene
- * @typedef {import("../shared/types.js").Altitude} Altitude
- * @typedef {import("../state/store.js").Store} Store
- * @typedef {import("../state/actions.js").Actions} Actions
+ * @import {Altitude, Scene} from "../shared/types.js"
+ * @import {Store} from "../state/store.js"
+ * @import {Actions} from "../state/actions.js"
  */
 import { withOrbit, withPose } from "../scene/scene.js";
 import { withZones } from "../scene/fence.js";

@@ -2,10 +2,8 @@
 /**
  * The altitude of missions. The page never assumes one.
  *
- * @typedef {import("../shared/types.js").Altitude} Altitude
- * @typedef {import("../shared/types.js").Reference} Reference
- * @typedef {import("../shared/types.js").Units} Units
- * @typedef {import("../state/page_state.js").FieldErrors} FieldErrors
+ * @import {Altitude, Reference, Units} from "../shared/types.js"
+ * @import {FieldErrors} from "../state/page_state.js"
  */
 import { fixed, unitOf } from "../shared/units.js";
 

@@ -3,7 +3,7 @@
  * Coordinates as the user types or pastes them: degrees with decimals, degrees and minutes, or degrees, minutes and
  * seconds, with or without the letter of a hemisphere; a latitude, a longitude, or both.
  *
- * @typedef {import("../shared/types.js").Origin} Origin
+ * @import {Origin} from "../shared/types.js"
  * @typedef {"latitude_deg" | "longitude_deg"} Axis
  */
 import { tidy } from "../shared/units.js";

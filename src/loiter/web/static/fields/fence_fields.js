@@ -2,12 +2,11 @@
 /**
  * The list of the fence's zones: new ones, their rule, the corners of polygons, and the margin.
  *
- * @typedef {import("../state/store.js").Store} Store
- * @typedef {import("../state/actions.js").Actions} Actions
- * @typedef {import("../shared/types.js").Scene} Scene
- * @typedef {import("../shared/types.js").Zone} Zone
- * @typedef {import("../shared/geometry.js").View} View
- * @typedef {import("./input_fields.js").Field} Field
+ * @import {Store} from "../state/store.js"
+ * @import {Actions} from "../state/actions.js"
+ * @import {Scene, Zone} from "../shared/types.js"
+ * @import {View} from "../shared/geometry.js"
+ * @import {Field} from "./input_fields.js"
  */
 import {
   freeName,

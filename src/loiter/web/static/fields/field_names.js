@@ -2,8 +2,8 @@
 /**
  * Errors of the library, in the names that the page gives to the fields.
  *
- * @typedef {import("../shared/types.js").Units} Units
- * @typedef {import("../state/page_state.js").FieldErrors} FieldErrors
+ * @import {Units} from "../shared/types.js"
+ * @import {FieldErrors} from "../state/page_state.js"
  */
 import { Problem } from "../requests/api.js";
 import { byId } from "../shared/dom.js";

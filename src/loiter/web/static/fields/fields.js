@@ -3,13 +3,11 @@
  * All fields of the page, and their error marks: those of the scene, of the position of (0, 0) on Earth, and of the
  * altitude.
  *
- * @typedef {import("../state/store.js").Store} Store
- * @typedef {import("../state/actions.js").Actions} Actions
- * @typedef {import("../plan/camera.js").PlanCamera} PlanCamera
- * @typedef {import("./input_fields.js").Field} Field
- * @typedef {import("../shared/types.js").Origin} Origin
- * @typedef {import("./input_fields.js").Source} Source
- * @typedef {import("../shared/types.js").Altitude} Altitude
+ * @import {Store} from "../state/store.js"
+ * @import {Actions} from "../state/actions.js"
+ * @import {PlanCamera} from "../plan/camera.js"
+ * @import {Field, Source} from "./input_fields.js"
+ * @import {Altitude, Origin} from "../shared/types.js"
  *
  * @typedef {Record<string, Field>} Fields  by their ids
  */

@@ -3,8 +3,8 @@
  * Fields for numbers and choices. If a text is not a number, or the service refuses the number, the field is marked,
  * with a sentence below it. Until the text is corrected, the previous number stays in use.
  *
- * @typedef {import("../shared/types.js").Units} Units
- * @typedef {import("../shared/units.js").Quantity} Quantity
+ * @import {Units} from "../shared/types.js"
+ * @import {Quantity} from "../shared/units.js"
  *
  * @typedef {object} Source  the number that a field shows and sets
  * @property {() => Quantity} quantity

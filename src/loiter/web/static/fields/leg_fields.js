@@ -2,12 +2,11 @@
 /**
  * The fields of a leg: the point flown to, the least hold, and a climb or descent.
  *
- * @typedef {import("../state/store.js").Store} Store
- * @typedef {import("../shared/types.js").Leg} Leg
- * @typedef {import("../shared/units.js").Quantity} Quantity
- * @typedef {import("./input_fields.js").Field} Field
- * @typedef {import("./input_fields.js").Source} Source
- * @typedef {import("./scene_fields.js").Change} Change
+ * @import {Store} from "../state/store.js"
+ * @import {Leg} from "../shared/types.js"
+ * @import {Quantity} from "../shared/units.js"
+ * @import {Field, Source} from "./input_fields.js"
+ * @import {Change} from "./scene_fields.js"
  *
  * @typedef {Exclude<keyof Leg, "exit_to">} Name
  */

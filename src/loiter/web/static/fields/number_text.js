@@ -2,8 +2,8 @@
 /**
  * Numbers as the user types them: with a decimal point or comma, with or without a unit.
  *
- * @typedef {import("../shared/types.js").Units} Units
- * @typedef {import("../shared/units.js").Quantity} Quantity
+ * @import {Units} from "../shared/types.js"
+ * @import {Quantity} from "../shared/units.js"
  * @typedef {{value: number} | {problem: string}} Entry  in metres, metres per second or degrees; or why there is none
  */
 import { acceptedUnits, unitOf } from "../shared/units.js";

@@ -3,11 +3,10 @@
  * The fields for the positions of the aircraft and of the circle as latitude and longitude. Without a position of (0, 0)
  * on Earth the first position sets it, so that the scene keeps its shape; after that a position moves its object.
  *
- * @typedef {import("../shared/types.js").Scene} Scene
- * @typedef {import("../shared/types.js").Origin} Origin
- * @typedef {import("../state/store.js").Store} Store
- * @typedef {import("../state/page_state.js").PageState} PageState
- * @typedef {import("./input_fields.js").Field} Field
+ * @import {Origin, Scene} from "../shared/types.js"
+ * @import {Store} from "../state/store.js"
+ * @import {PageState} from "../state/page_state.js"
+ * @import {Field} from "./input_fields.js"
  *
  * @typedef {(scene: Scene, event: Event, more: Partial<PageState>) => void} Change
  */

@@ -2,11 +2,10 @@
 /**
  * The fields for the numbers of a scene.
  *
- * @typedef {import("../shared/types.js").Scene} Scene
- * @typedef {import("../shared/types.js").Limit} Limit
- * @typedef {import("../shared/units.js").Quantity} Quantity
- * @typedef {import("../state/store.js").Store} Store
- * @typedef {import("./input_fields.js").Source} Source
+ * @import {Limit, Scene} from "../shared/types.js"
+ * @import {Quantity} from "../shared/units.js"
+ * @import {Store} from "../state/store.js"
+ * @import {Source} from "./input_fields.js"
  *
  * @typedef {(scene: Scene, event: Event) => void} Change
  *

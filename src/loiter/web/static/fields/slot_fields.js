@@ -2,9 +2,9 @@
 /**
  * The fields of the slot: its bearing, which is empty where the scene has no slot, and the time at which it is there.
  *
- * @typedef {import("../state/store.js").Store} Store
- * @typedef {import("./scene_fields.js").Change} Change
- * @typedef {import("./input_fields.js").Field} Field
+ * @import {Store} from "../state/store.js"
+ * @import {Change} from "./scene_fields.js"
+ * @import {Field} from "./input_fields.js"
  */
 import { withoutSlot, withSlot } from "../scene/slot.js";
 import { byId, show } from "../shared/dom.js";

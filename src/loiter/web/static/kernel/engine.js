@@ -76,7 +76,7 @@ export function file(format, { altitude_m = undefined, altitude_reference = "msl
   // No clear entry is searched for into a slot.
   const isPlan = !scene.fence || scene.slot || fenceCheck(scene).clear;
   const maneuver = isPlan ? firstOf(scene) : library.clear_maneuver(placed(scene), ...fenced(scene));
-  if (format === "svg") return { content: maneuver._drawing().svg(), type: "image/svg+xml" };
+  if (format === "svg") return { content: library.drawn_svg(maneuver), type: "image/svg+xml" };
   library._check_points(maneuver, { spacing_m: null, chord_error_m: CHORD_ERROR_M });
   const datum = library.AltitudeDatum(altitude_reference, home_altitude_m ?? null);
   const altitude = altitude_m === undefined ? null : datum.checked(altitude_m);

@@ -1104,10 +1104,6 @@ decimals = decimals_of(self.orbit);
 windy = or(gt(self.wind.speed_m_s, 0.0), () => self.orbit.moves);
 return `${str(self.word)}, ${str(Turn_described(self.turn))}: joins in ${format(self.duration_s, `.${String(decimals)}f`)} s after ${format(self.length_m, `.${String(decimals)}f`)} m${str((truth(windy) ? " through the air" : ""))}`;
 }
-_drawing() {
-const self = this;
-return Drawing(str(self), self.start, self.segments, self.join, self.orbit_at_join, self.turn, self.aircraft, self.wind);
-}
 }, ["start", "orbit", "aircraft", "turn", "segments", "miss_m", "wind"], 'Maneuver');
 
 const LocalFrame = struct(class extends Values {
@@ -1445,37 +1441,6 @@ function decimals_of(orbit) {
 return (ge(orbit.radius_m, 10.0) ? 1 : 3);
 }
 
-const Drawing = struct(class extends Tuple {
-constructor(title, start, segments, join, circle, turn, aircraft, wind) {
-super();
-this.title = title;
-this.start = start;
-this.segments = segments;
-this.join = join;
-this.circle = circle;
-this.turn = turn;
-this.aircraft = aircraft;
-this.wind = wind;
-
-}
-svg() {
-let centre_x, centre_y, circle, corners, east, height, north, parts, radius, ring, size, start, title, tracks, view;
-const self = this;
-tracks = list(iter(self.segments)).map((segment) => [segment.letter, drawing__track(segment, self.aircraft, self.wind)]);
-circle = self.circle;
-[east, north, radius] = iter([circle.east_m, circle.north_m, circle.radius_m]);
-corners = [[sub(east, radius), sub(north, radius)], [add(east, radius), add(north, radius)]];
-start = [self.start.east_m, self.start.north_m];
-view = _view_of([...iter(corners), start, ...iter(list(iter(tracks)).map((one) => iter(one)).flatMap(([_0, track]) => list(iter(track)).map((point) => point)))]);
-[centre_x, centre_y] = iter(view.pixels(east, north).split(","));
-[title, height] = iter([escape(self.title), `${format(view.height, `.0f`)}`]);
-size = `width="${format(WIDTH, `.0f`)}" height="${str(height)}" viewBox="0 0 ${format(WIDTH, `.0f`)} ${str(height)}"`;
-ring = `cx="${str(centre_x)}" cy="${str(centre_y)}" r="${format(mul(view.scale, radius), `.1f`)}"`;
-parts = [`<svg xmlns="http://www.w3.org/2000/svg" role="img" aria-label="${str(title)}" ${str(size)}>`, `<title>${str(title)}</title>`, "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>", `<circle ${str(ring)} fill="none" stroke="black" stroke-width="${str(THIN)}"/>`, ...iter(list(iter(range(4))).map((quarter) => _direction(view, self.circle, self.turn, quarter))), ...iter(list(iter(tracks)).map((one) => iter(one)).map(([letter, track]) => drawing__line(view, letter, track))), ...iter(list(iter(sliced(self.segments, 1, null, null))).map((segment) => _dot(view, segment.start, "white"))), _dot(view, self.join, "black"), _aircraft(view, self.start), "</svg>"];
-return join_("\n", parts);
-}
-}, ["title", "start", "segments", "join", "circle", "turn", "aircraft", "wind"], 'Drawing');
-
 function checked_place(argument, latitude_deg, longitude_deg) {
 let lat, lon, swapped;
 lat = number(`${str(argument)} latitude_deg`, latitude_deg, "degrees");
@@ -1565,55 +1530,6 @@ this.speed_m_s = speed_m_s;
 }
 }, ["time_s", "east_m", "north_m", "tangent_east", "tangent_north", "curvature_per_m", "speed_m_s"], 'Setpoints');
 
-function drawing__track(segment, aircraft, wind) {
-let _, east, north, points;
-
-points = (eq(segment.letter, "S") ? 2 : ARC_POINTS);
-[east, north, _] = iter(along(segment, np.linspace(0.0, segment.length_m, points), aircraft, wind));
-return list(zip(tolist_(east), tolist_(north)));
-}
-
-function _view_of(points) {
-let east, height, margin, north, pixels, scale, width;
-[east, north] = iter(zip(...iter(points)));
-[width, height] = iter([sub(max(east), min(east)), sub(max(north), min(north))]);
-margin = mul(MARGIN, max(width, height));
-pixels = mul(WIDTH, min(max(div(add(height, mul(2, margin)), add(width, mul(2, margin))), FLATTEST), STEEPEST));
-scale = min(div(WIDTH, add(width, mul(2, margin))), div(pixels, add(height, mul(2, margin))));
-return _View(mul(0.5, add(max(east), min(east))), mul(0.5, add(max(north), min(north))), scale, pixels);
-}
-
-function _direction(view, circle, turn, quarter) {
-let azimuth, east, north, outline, place, turned;
-azimuth = add(45.0, mul(90.0, quarter));
-[east, north] = iter(heading_vector(azimuth));
-place = view.pixels(add(circle.east_m, mul(circle.radius_m, east)), add(circle.north_m, mul(circle.radius_m, north)));
-turned = add(azimuth, (eq(turn, Turn.CW) ? 90.0 : -90.0));
-outline = `0,${str(neg(ARROW))} ${str(mul(0.7, ARROW))},${str(mul(0.6, ARROW))} ${str(mul(-0.7, ARROW))},${str(mul(0.6, ARROW))}`;
-return `<polygon points="${str(outline)}" transform="translate(${str(place)}) rotate(${format(turned, `.1f`)})" fill="black"/>`;
-}
-
-function drawing__line(view, letter, track) {
-let points;
-points = join_(" ", list(iter(track)).map((point) => view.pixels(...iter(point))));
-return `<polyline points="${str(points)}" fill="none" stroke="${str(item(COLOURS, letter))}" stroke-width="${str(THICK)}" stroke-linejoin="round"/>`;
-}
-
-function _dot(view, pose, fill) {
-let x, y;
-[x, y] = iter(view.pixels(pose.east_m, pose.north_m).split(","));
-return `<circle cx="${str(x)}" cy="${str(y)}" r="${str(drawing_MARK)}" fill="${str(fill)}" stroke="black"/>`;
-}
-
-function _aircraft(view, pose) {
-let outline, place, size, turned;
-turned = math.degrees(math.atan2(...iter(heading_vector(pose.heading_deg))));
-place = view.pixels(pose.east_m, pose.north_m);
-size = mul(0.5, AIRCRAFT);
-outline = `0,${str(neg(size))} ${str(mul(0.6, size))},${str(mul(0.7, size))} 0,${str(mul(0.35, size))} ${str(mul(-0.6, size))},${str(mul(0.7, size))}`;
-return `<polygon points="${str(outline)}" transform="translate(${str(place)}) rotate(${format(turned, `.1f`)})" fill="black"/>`;
-}
-
 const CircleParameters = struct(class extends Tuple {
 constructor(radius, direction = null) {
 super();
@@ -1628,6 +1544,26 @@ if (!has(turn, [Turn.CW, Turn.CCW])) {
 throw errors.InvalidArgument("turn", `is ${repr(str(turn))}: a circle is held cw or ccw`);
 }
 return eq(turn, Turn.CCW);
+}
+
+const RelativeWind = struct(class extends Tuple {
+constructor(x, y) {
+super();
+this.x = x;
+this.y = y;
+
+}
+get still() {
+const self = this;
+return bit_and(eq(self.x, 0.0), eq(self.y, 0.0));
+}
+}, ["x", "y"], 'RelativeWind');
+
+function relative_velocity(air, circle, airspeed) {
+let passes, wx, wy;
+[wx, wy] = iter([sub(item(air, 0), item(circle, 0)), sub(item(air, 1), item(circle, 1))]);
+passes = gt(math.hypot(wx, wy), mul(ROUNDING, add(math.hypot(...iter(air)), math.hypot(...iter(circle)))));
+return [add(div(mul(wx, passes), airspeed), 0.0), add(div(mul(wy, passes), airspeed), 0.0)];
 }
 
 const Orbit = struct(class extends Values {
@@ -1680,6 +1616,13 @@ return math.hypot(sub(pose.east_m, self.east_m), sub(pose.north_m, self.north_m)
 }
 }, ["east_m", "north_m", "radius_m", "turn", "velocity_east_m_s", "velocity_north_m_s"], 'Orbit');
 
+function circle_radius_m(argument, radius_m) {
+if ((lt(neg(math.inf), float(radius_m)) && lt(float(radius_m), 0.0))) {
+throw errors.InvalidArgument(argument, `is ${str(radius_m)}: it must be positive; the turn ccw holds counter-clockwise`);
+}
+return positive(argument, radius_m, "metres");
+}
+
 const Aircraft = struct(class extends Values {
 constructor(airspeed_m_s, max_bank_deg = null, min_turn_radius_m = null, max_turn_rate_deg_s = null, climb_rate_m_s = null, descent_rate_m_s = null) {
 super();
@@ -1729,51 +1672,6 @@ const self = this;
 return math.degrees(math.atan2(mul(self.airspeed_m_s, self.airspeed_m_s), mul(STANDARD_GRAVITY_M_S2, radius_m)));
 }
 }, ["airspeed_m_s", "max_bank_deg", "min_turn_radius_m", "max_turn_rate_deg_s", "climb_rate_m_s", "descent_rate_m_s"], 'Aircraft');
-
-const RelativeWind = struct(class extends Tuple {
-constructor(x, y) {
-super();
-this.x = x;
-this.y = y;
-
-}
-get still() {
-const self = this;
-return bit_and(eq(self.x, 0.0), eq(self.y, 0.0));
-}
-}, ["x", "y"], 'RelativeWind');
-
-function relative_velocity(air, circle, airspeed) {
-let passes, wx, wy;
-[wx, wy] = iter([sub(item(air, 0), item(circle, 0)), sub(item(air, 1), item(circle, 1))]);
-passes = gt(math.hypot(wx, wy), mul(ROUNDING, add(math.hypot(...iter(air)), math.hypot(...iter(circle)))));
-return [add(div(mul(wx, passes), airspeed), 0.0), add(div(mul(wy, passes), airspeed), 0.0)];
-}
-
-const _View = struct(class extends Tuple {
-constructor(east, north, scale, height) {
-super();
-this.east = east;
-this.north = north;
-this.scale = scale;
-this.height = height;
-
-}
-pixels(east_m, north_m) {
-let x, y;
-const self = this;
-x = add(mul(0.5, WIDTH), mul(self.scale, sub(east_m, self.east)));
-y = sub(mul(0.5, self.height), mul(self.scale, sub(north_m, self.north)));
-return `${format(x, `.1f`)},${format(y, `.1f`)}`;
-}
-}, ["east", "north", "scale", "height"], '_View');
-
-function circle_radius_m(argument, radius_m) {
-if ((lt(neg(math.inf), float(radius_m)) && lt(float(radius_m), 0.0))) {
-throw errors.InvalidArgument(argument, `is ${str(radius_m)}: it must be positive; the turn ccw holds counter-clockwise`);
-}
-return positive(argument, radius_m, "metres");
-}
 
 function radius_at_rate(airspeed_m_s, turn_rate_deg_s) {
 return div(airspeed_m_s, math.radians(turn_rate_deg_s));
@@ -1922,6 +1820,22 @@ phase = phase_at_start(then, given, problem.time_unit_s);
 [x, y, c, s, _] = iter(kernel.hold_pose(phase, given.side, given.R, given.wx, given.wy));
 [east, north] = iter(problem.orbit.centre_after(time_s));
 return Pose(add(east, mul(r, x)), add(north, mul(r, y)), heading_of(c, s));
+}
+
+function drawn_svg(maneuver) {
+let centre_x, centre_y, circle, corners, east, height, north, parts, radius, ring, size, start, title, tracks, view;
+tracks = list(iter(maneuver.segments)).map((segment) => [segment.letter, drawing__track(segment, maneuver.aircraft, maneuver.wind)]);
+circle = maneuver.orbit_at_join;
+[east, north, radius] = iter([circle.east_m, circle.north_m, circle.radius_m]);
+corners = [[sub(east, radius), sub(north, radius)], [add(east, radius), add(north, radius)]];
+start = [maneuver.start.east_m, maneuver.start.north_m];
+view = _view_of([...iter(corners), start, ...iter(list(iter(tracks)).map((one) => iter(one)).flatMap(([_0, track]) => list(iter(track)).map((point) => point)))]);
+[centre_x, centre_y] = iter(view.pixels(east, north).split(","));
+[title, height] = iter([escape(str(maneuver)), `${format(view.height, `.0f`)}`]);
+size = `width="${format(WIDTH, `.0f`)}" height="${str(height)}" viewBox="0 0 ${format(WIDTH, `.0f`)} ${str(height)}"`;
+ring = `cx="${str(centre_x)}" cy="${str(centre_y)}" r="${format(mul(view.scale, radius), `.1f`)}"`;
+parts = [`<svg xmlns="http://www.w3.org/2000/svg" role="img" aria-label="${str(title)}" ${str(size)}>`, `<title>${str(title)}</title>`, "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>", `<circle ${str(ring)} fill="none" stroke="black" stroke-width="${str(THIN)}"/>`, ...iter(list(iter(range(4))).map((quarter) => _direction(view, circle, maneuver.turn, quarter))), ...iter(list(iter(tracks)).map((one) => iter(one)).map(([letter, track]) => drawing__line(view, letter, track))), ...iter(list(iter(sliced(maneuver.segments, 1, null, null))).map((segment) => _dot(view, segment.start, "white"))), _dot(view, maneuver.join, "black"), _aircraft(view, maneuver.start), "</svg>"];
+return join_("\n", parts);
 }
 
 const PlacedProblem = struct(class extends Tuple {
@@ -2550,6 +2464,55 @@ if ((!truth(math.isfinite(time)) || gt(abs(time), mul(MOST_TURNS, period)))) {
 throw errors.OutOfRange(`the slot is given at ${format(slot.at_s, `g`)} s: more than ${format(MOST_TURNS, `g`)} turns lie between the start and then`);
 }
 return sub(phase, kernel.width_held(phase, mod(math.fmod(time, period), period), R, wx, wy));
+}
+
+function drawing__track(segment, aircraft, wind) {
+let _, east, north, points;
+
+points = (eq(segment.letter, "S") ? 2 : ARC_POINTS);
+[east, north, _] = iter(along(segment, np.linspace(0.0, segment.length_m, points), aircraft, wind));
+return list(zip(tolist_(east), tolist_(north)));
+}
+
+function _view_of(points) {
+let east, height, margin, north, pixels, scale, width;
+[east, north] = iter(zip(...iter(points)));
+[width, height] = iter([sub(max(east), min(east)), sub(max(north), min(north))]);
+margin = mul(MARGIN, max(width, height));
+pixels = mul(WIDTH, min(max(div(add(height, mul(2, margin)), add(width, mul(2, margin))), FLATTEST), STEEPEST));
+scale = min(div(WIDTH, add(width, mul(2, margin))), div(pixels, add(height, mul(2, margin))));
+return _View(mul(0.5, add(max(east), min(east))), mul(0.5, add(max(north), min(north))), scale, pixels);
+}
+
+function _direction(view, circle, turn, quarter) {
+let azimuth, east, north, outline, place, turned;
+azimuth = add(45.0, mul(90.0, quarter));
+[east, north] = iter(heading_vector(azimuth));
+place = view.pixels(add(circle.east_m, mul(circle.radius_m, east)), add(circle.north_m, mul(circle.radius_m, north)));
+turned = add(azimuth, (eq(turn, Turn.CW) ? 90.0 : -90.0));
+outline = `0,${str(neg(ARROW))} ${str(mul(0.7, ARROW))},${str(mul(0.6, ARROW))} ${str(mul(-0.7, ARROW))},${str(mul(0.6, ARROW))}`;
+return `<polygon points="${str(outline)}" transform="translate(${str(place)}) rotate(${format(turned, `.1f`)})" fill="black"/>`;
+}
+
+function drawing__line(view, letter, track) {
+let points;
+points = join_(" ", list(iter(track)).map((point) => view.pixels(...iter(point))));
+return `<polyline points="${str(points)}" fill="none" stroke="${str(item(COLOURS, letter))}" stroke-width="${str(THICK)}" stroke-linejoin="round"/>`;
+}
+
+function _dot(view, pose, fill) {
+let x, y;
+[x, y] = iter(view.pixels(pose.east_m, pose.north_m).split(","));
+return `<circle cx="${str(x)}" cy="${str(y)}" r="${str(drawing_MARK)}" fill="${str(fill)}" stroke="black"/>`;
+}
+
+function _aircraft(view, pose) {
+let outline, place, size, turned;
+turned = math.degrees(math.atan2(...iter(heading_vector(pose.heading_deg))));
+place = view.pixels(pose.east_m, pose.north_m);
+size = mul(0.5, AIRCRAFT);
+outline = `0,${str(neg(size))} ${str(mul(0.6, size))},${str(mul(0.7, size))} 0,${str(mul(0.35, size))} ${str(mul(-0.6, size))},${str(mul(0.7, size))}`;
+return `<polygon points="${str(outline)}" transform="translate(${str(place)}) rotate(${format(turned, `.1f`)})" fill="black"/>`;
 }
 
 function solve_problem(problem, in_still_air, in_wind) {
@@ -3882,6 +3845,24 @@ rate = div(mul(mul(aircraft.max_turn_rate_deg_s, r), tightest), orbit.radius_m);
 }
 return `orbit radius ${format(orbit.radius_m, `g`)} m cannot be held in ${str(_air(orbit, mul(math.hypot(...iter(air)), V)))} at ${format(V, `.4g`)} m/s and ${str(limit)}: it needs ${format(mul(tightest, r), `.4g`)} m, or ${str(need)}`;
 }
+
+const _View = struct(class extends Tuple {
+constructor(east, north, scale, height) {
+super();
+this.east = east;
+this.north = north;
+this.scale = scale;
+this.height = height;
+
+}
+pixels(east_m, north_m) {
+let x, y;
+const self = this;
+x = add(mul(0.5, WIDTH), mul(self.scale, sub(east_m, self.east)));
+y = sub(mul(0.5, self.height), mul(self.scale, sub(north_m, self.north)));
+return `${format(x, `.1f`)},${format(y, `.1f`)}`;
+}
+}, ["east", "north", "scale", "height"], '_View');
 
 const Solved = struct(class extends Tuple {
 constructor(maneuver, time) {
@@ -7169,18 +7150,7 @@ const UPWIND = 0.0;
 const DOWNWIND = math.pi;
 const SIDES = new Map([[Turn.CW, kernel.Side.CW], [Turn.CCW, kernel.Side.CCW], [Turn.EITHER, kernel.Side.EITHER]]);
 const ROUNDING = mul(64.0, pow(2.0, -52));
-const WIDTH = 480.0;
-const THIN = 1.5;
 const COMMANDS = new Map([[MavCommand.NAV_LOITER_UNLIM, CircleParameters(3)], [MavCommand.NAV_LOITER_TURNS, CircleParameters(3)], [MavCommand.NAV_LOITER_TIME, CircleParameters(3)], [MavCommand.NAV_LOITER_TO_ALT, CircleParameters(2)], [MavCommand.DO_ORBIT, CircleParameters(1)], [MavCommand.DO_REPOSITION, CircleParameters(3, 4)]]);
-const ARC_POINTS = 48;
-const MARGIN = 0.08;
-const FLATTEST = 0.35;
-const STEEPEST = 1.0;
-const ARROW = 6.0;
-const COLOURS = new Map([["L", "#009E73"], ["S", "#0072B2"], ["R", "#D55E00"]]);
-const THICK = 3.0;
-const drawing_MARK = 4.5;
-const AIRCRAFT = 18.0;
 const TURN_LIMITS = new Map([["max_bank_deg", "degrees"], ["min_turn_radius_m", "metres"], ["max_turn_rate_deg_s", "degrees per second"]]);
 const STANDARD_GRAVITY_M_S2 = 9.80665;
 const FILE_FORMATS = [Format([".geojson"], "map", "application/geo+json", "GeoJSON", "for maps", partial(_map, geojson, false)), Format([".kml"], "map", "application/vnd.google-earth.kml+xml", "KML", "for Google Earth", partial(_map, kml, true)), Format([".gpx"], "map", "application/gpx+xml", "GPX", "for GPS receivers", partial(_map, gpx, false)), Format([".csv"], "table", "text/csv; charset=utf-8", "CSV", "samples along the track, in metres", _table), Format([".plan"], "mission", "application/json", "Plan", "mission for QGroundControl", _plan), Format([".waypoints", ".txt"], "mission", "text/plain; charset=utf-8", "WPL", "waypoints for Mission Planner", _waypoints)];
@@ -7199,6 +7169,8 @@ const LEAST_CORNERS = 3;
 const TOUCH_M = 1e-06;
 const MAX_POINTS = 20000;
 const REACH = pow(2.0, 52);
+const WIDTH = 480.0;
+const THIN = 1.5;
 const CHORD_ERROR = 0.002;
 const OPTIONS = new Map([["pose", "--pose"], ["orbit", "--orbit"], ["turn", "--turn"], ["airspeed_m_s", "--airspeed"], ["max_bank_deg", "--bank"], ["min_turn_radius_m", "--turn-radius"], ["max_turn_rate_deg_s", "--turn-rate"], ["wind", "--wind"], ["orbit_velocity_m_s", "--orbit-velocity"], ["tolerance_m", "--tolerance"], ["exit_to", "--exit-to"], ["hold_s", "--hold"], ["turns", "--turns"], ["start_altitude_m", "--altitude"], ["altitude_m", "--to-altitude"], ["climb_rate_m_s", "--climb-rate"], ["descent_rate_m_s", "--descent-rate"], ["slot phase_deg", "--slot"], ["slot at_s", "--slot-at"]]);
 const IN_STILL_AIR = Formulation([Condition("target", "x(T) = 0, y(T) = R or -R (8)-(10)", target), Condition("join", "the last pose, reduced by (2), is the target", join), Condition("turn", "the circle is held as asked for", turn)], [EquationOfMotion("motion", "x' = 1 + u y, y' = -u x (7)", ((now) => now.reduced), ((piece, now) => sub(1.0, mul(mul(new Complex(0.0, 1.0), piece.u), now.reduced)))), EquationOfMotion("adjoint", "psi1' = u psi2, psi2' = -u psi1 (12)", ((now) => now.psi), ((piece, now) => mul(mul(neg(new Complex(0.0, 1.0)), piece.u), now.psi))), EquationOfMotion("slope", "phi' = -psi2 (17)", ((now) => now.phi), ((piece, now) => neg(now.psi2)))], new Map([["norm", "|psi| = 1 (18)"], ["multiplier", "lambda >= 0"], ["sign", "u = sign phi, u = 0 only where phi = 0 (13)"], ["hamiltonian", "|phi| + psi1 = lambda (14)"], ["psi1", "psi1 <= lambda (16)"], ["transversality", "psi1(T) (1 + u side R) = lambda"]]), [Condition("switch", "phi = 0, psi1 = lambda at each switch", switch_), Condition("middle arc", "lasts 2 pi - 2 acos lambda, more than pi", middle_arc), Condition("slopes", "x1/y1 = -x/y (19)", slopes), Condition("line", "y = 0 while u = 0: a line through the centre", line), Condition("axis", "|psi2| times the |y| reached beyond = 0 where y changes sign", axis), Condition("last arc", "lasts pi/3 at most", partial(last_arc, { tight: true })), Condition("last arc", "lasts acos(1/(1 + R)) at most", partial(last_arc, { tight: false }))], GradientEquations("lambda grad T = -psi", "1 + min grad T . f = 0"));
@@ -7213,6 +7185,15 @@ const LEAST_MARGIN_M = 5.0;
 const MARGIN_SHARE = 0.05;
 const TWO_PI = mul(2.0, math.pi);
 const MOST_TURNS = 100000.0;
+const ARC_POINTS = 48;
+const MARGIN = 0.08;
+const FLATTEST = 0.35;
+const STEEPEST = 1.0;
+const ARROW = 6.0;
+const COLOURS = new Map([["L", "#009E73"], ["S", "#0072B2"], ["R", "#D55E00"]]);
+const THICK = 3.0;
+const drawing_MARK = 4.5;
+const AIRCRAFT = 18.0;
 const BASIS_VIOLATED = "a condition is violated";
 const BASIS_THEOREM = "docs/proof.md, theorem 1, up to rounding";
 const BASIS_NECESSARY = "necessary conditions only";
@@ -7340,4 +7321,4 @@ const WHOLE_TURN = 1e-09;
 const OUTER_CONTROLS = [[1, 1], [-1, -1], [1, -1], [-1, 1]];
 const BESIDE = 1e-07;
 
-export { plan, certificate, first_maneuver, lap, race, leg_plan, leg_fence_check, leg_file, fence_check, clear_plan, clear_maneuver, CircleZone, PolygonZone, Fence, _check_points, FILE_FORMATS, SaveArguments, AltitudeDatum, AUTOPILOTS, JSON_FIELDS, Pose, Orbit, Aircraft, Wind, Problem, Slot, slot_pose, heading_vector, Maneuver, LocalFrame, PlacedProblem, _kind, NARROW, SHARE, JUMP, LARGEST_GAP, VANISHING };
+export { plan, certificate, first_maneuver, lap, race, leg_plan, leg_fence_check, leg_file, fence_check, clear_plan, clear_maneuver, CircleZone, PolygonZone, Fence, _check_points, FILE_FORMATS, SaveArguments, AltitudeDatum, AUTOPILOTS, JSON_FIELDS, Pose, Orbit, Aircraft, Wind, Problem, Slot, slot_pose, heading_vector, Maneuver, drawn_svg, LocalFrame, PlacedProblem, _kind, NARROW, SHARE, JUMP, LARGEST_GAP, VANISHING };

@@ -2,10 +2,8 @@
 /**
  * Lines on the map: axes, curves between regions, optimal paths, and the points of the circle.
  *
- * @typedef {import("../shared/geometry.js").View} View
- * @typedef {import("../shared/types.js").Curve} Curve
- * @typedef {import("../shared/types.js").Maneuver} Maneuver
- * @typedef {import("../shared/types.js").Synthesis} Synthesis
+ * @import {View} from "../shared/geometry.js"
+ * @import {Curve, Maneuver, Synthesis} from "../shared/types.js"
  */
 import { part, polyline } from "../shared/dom.js";
 import { toScreen } from "../shared/geometry.js";

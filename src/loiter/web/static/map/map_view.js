@@ -3,10 +3,10 @@
  * The map of the reduced plane: the fastest word in each region, the curves between the regions, and the state of the
  * aircraft (Fig. 4 of the paper).
  *
- * @typedef {import("../state/store.js").Store} Store
- * @typedef {import("../state/actions.js").Actions} Actions
- * @typedef {import("../state/page_state.js").PageState} PageState
- * @typedef {import("../shared/geometry.js").Point} Point
+ * @import {Store} from "../state/store.js"
+ * @import {Actions} from "../state/actions.js"
+ * @import {PageState} from "../state/page_state.js"
+ * @import {Point} from "../shared/geometry.js"
  */
 import { byId, fill, observeSize, setAttributes, setSize, show, svg, svgLayers } from "../shared/dom.js";
 import { toScreen } from "../shared/geometry.js";

@@ -3,9 +3,8 @@
  * The regions of the map and their words. The hue is that of the word's first control, the strength distinguishes
  * words.
  *
- * @typedef {import("../shared/types.js").Synthesis} Synthesis
- * @typedef {import("../shared/geometry.js").Point} Point
- * @typedef {import("../shared/geometry.js").View} View
+ * @import {Synthesis} from "../shared/types.js"
+ * @import {Point, View} from "../shared/geometry.js"
  *
  * @typedef {[number, number, number, number]} Colour  red, green, blue, alpha; 0 to 255
  */

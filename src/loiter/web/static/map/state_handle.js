@@ -2,11 +2,10 @@
 /**
  * The handle of the state on the map: a drag moves the aircraft so that it has the new state.
  *
- * @typedef {import("../state/store.js").Store} Store
- * @typedef {import("../state/actions.js").Actions} Actions
- * @typedef {import("../shared/types.js").Scene} Scene
- * @typedef {import("../shared/geometry.js").Point} Point
- * @typedef {import("../shared/geometry.js").View} View
+ * @import {Store} from "../state/store.js"
+ * @import {Actions} from "../state/actions.js"
+ * @import {Scene} from "../shared/types.js"
+ * @import {Point, View} from "../shared/geometry.js"
  */
 import { withPose } from "../scene/scene.js";
 import { show, svg } from "../shared/dom.js";

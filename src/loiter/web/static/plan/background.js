@@ -2,12 +2,8 @@
 /**
  * The grid and the circle of the plan view.
  *
- * @typedef {import("../shared/types.js").Units} Units
- * @typedef {import("../shared/geometry.js").View} View
- * @typedef {import("../shared/types.js").Answer} Answer
- * @typedef {import("../shared/types.js").Direction} Direction
- * @typedef {import("../shared/types.js").Scene} Scene
- * @typedef {import("../shared/geometry.js").Point} Point
+ * @import {Answer, Direction, Scene, Units} from "../shared/types.js"
+ * @import {Point, View} from "../shared/geometry.js"
  */
 import { orbitMoves } from "../scene/scene.js";
 import { part, polyline } from "../shared/dom.js";

@@ -2,13 +2,10 @@
 /**
  * The camera of the plan view: which part of the plane the view shows.
  *
- * @typedef {import("../state/store.js").Store} Store
- * @typedef {import("../state/page_state.js").Camera} Camera
- * @typedef {import("../state/page_state.js").PageState} PageState
- * @typedef {import("../shared/types.js").Scene} Scene
- * @typedef {import("../shared/types.js").Answer} Answer
- * @typedef {import("../shared/geometry.js").View} View
- * @typedef {import("../shared/geometry.js").Point} Point
+ * @import {Store} from "../state/store.js"
+ * @import {Camera, PageState} from "../state/page_state.js"
+ * @import {Scene} from "../shared/types.js"
+ * @import {Point, View} from "../shared/geometry.js"
  * @typedef {ReturnType<typeof createCamera>} PlanCamera
  */
 import { byId } from "../shared/dom.js";

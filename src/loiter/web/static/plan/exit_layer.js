@@ -2,10 +2,10 @@
 /**
  * The point that a leg flies to, on the plan view: its handle, and the button that sets it and drops it.
  *
- * @typedef {import("../state/store.js").Store} Store
- * @typedef {import("../state/actions.js").Actions} Actions
- * @typedef {import("./camera.js").PlanCamera} PlanCamera
- * @typedef {import("./handles.js").Handle} Handle
+ * @import {Store} from "../state/store.js"
+ * @import {Actions} from "../state/actions.js"
+ * @import {PlanCamera} from "./camera.js"
+ * @import {Handle} from "./handles.js"
  */
 import { exitOf, withExit, withLeg, withoutLeg } from "../scene/leg.js";
 import { byId, show, svg } from "../shared/dom.js";

@@ -3,18 +3,12 @@
  * The fence in the plan view: what must not be entered is shaded, with the margin. Each zone has a handle that moves
  * it, and one for its radius or one at each of its corners.
  *
- * @typedef {import("../state/store.js").Store} Store
- * @typedef {import("../state/page_state.js").PageState} PageState
- * @typedef {import("../state/actions.js").Actions} Actions
- * @typedef {import("../shared/types.js").Scene} Scene
- * @typedef {import("../shared/types.js").Zone} Zone
- * @typedef {import("../shared/types.js").CircleZone} CircleZone
- * @typedef {import("../shared/types.js").PolygonZone} PolygonZone
- * @typedef {import("../shared/geometry.js").View} View
- * @typedef {import("../shared/geometry.js").Box} Box
- * @typedef {import("../shared/geometry.js").Point} Point
- * @typedef {import("./handles.js").Handle} Handle
- * @typedef {import("./handles.js").Stage} Stage
+ * @import {Store} from "../state/store.js"
+ * @import {PageState} from "../state/page_state.js"
+ * @import {Actions} from "../state/actions.js"
+ * @import {CircleZone, PolygonZone, Scene, Zone} from "../shared/types.js"
+ * @import {Box, Point, View} from "../shared/geometry.js"
+ * @import {Handle, Stage} from "./handles.js"
  */
 import { anchorOf, isPolygon, movedZone, withZone, withoutCorner, withoutZone, zonesOf } from "../scene/fence.js";
 import { fill, part, polyline, svg } from "../shared/dom.js";

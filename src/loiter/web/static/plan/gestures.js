@@ -2,8 +2,8 @@
 /**
  * Gestures and keys that move the plan view.
  *
- * @typedef {import("../shared/geometry.js").Point} Point
- * @typedef {import("./camera.js").PlanCamera} PlanCamera
+ * @import {Point} from "../shared/geometry.js"
+ * @import {PlanCamera} from "./camera.js"
  */
 import { POINTER_ENDS, isShortcut, pointOf } from "../shared/draggable.js";
 import { panned } from "../shared/geometry.js";

@@ -2,11 +2,10 @@
 /**
  * The handles on the plan view, the line to the handle of the heading, and the dial of the wind.
  *
- * @typedef {import("../state/store.js").Store} Store
- * @typedef {import("../state/page_state.js").PageState} PageState
- * @typedef {import("../state/actions.js").Actions} Actions
- * @typedef {import("./handles.js").Handle} Handle
- * @typedef {import("./handles.js").Stage} Stage
+ * @import {Store} from "../state/store.js"
+ * @import {PageState} from "../state/page_state.js"
+ * @import {Actions} from "../state/actions.js"
+ * @import {Handle, Stage} from "./handles.js"
  */
 import { polyline, setAttributes, show, svg } from "../shared/dom.js";
 import { makeHandle, placeHandle } from "../shared/draggable.js";

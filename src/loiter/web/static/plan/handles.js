@@ -3,10 +3,8 @@
  * The handles of the plan view: aircraft, heading, centre and radius of the circle. Each gives its position on the
  * screen, and the scene after a drag or a key.
  *
- * @typedef {import("../shared/types.js").Scene} Scene
- * @typedef {import("../shared/types.js").Units} Units
- * @typedef {import("../shared/geometry.js").View} View
- * @typedef {import("../shared/geometry.js").Point} Point
+ * @import {Scene, Units} from "../shared/types.js"
+ * @import {Point, View} from "../shared/geometry.js"
  *
  * @typedef {object} Stage
  * @property {View} view

@@ -3,11 +3,8 @@
  * Marks on the optimal paths, where the control changes and where the circle is joined, with labels that cover as
  * little as possible, and never each other.
  *
- * @typedef {import("../shared/types.js").Maneuver} Maneuver
- * @typedef {import("../shared/types.js").Scene} Scene
- * @typedef {import("../shared/geometry.js").Box} Box
- * @typedef {import("../shared/geometry.js").Point} Point
- * @typedef {import("../shared/geometry.js").View} View
+ * @import {Maneuver, Scene} from "../shared/types.js"
+ * @import {Box, Point, View} from "../shared/geometry.js"
  */
 import { part } from "../shared/dom.js";
 import { overlaps, pointAt, positionToScreen, toScreen, unitVector } from "../shared/geometry.js";

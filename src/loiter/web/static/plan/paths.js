@@ -2,13 +2,8 @@
 /**
  * The paths in the plan view.
  *
- * @typedef {import("../shared/types.js").Alternative} Alternative
- * @typedef {import("../shared/types.js").Letter} Letter
- * @typedef {import("../shared/types.js").Maneuver} Maneuver
- * @typedef {import("../shared/types.js").Scene} Scene
- * @typedef {import("../shared/types.js").Track} Track
- * @typedef {import("../shared/geometry.js").Point} Point
- * @typedef {import("../shared/geometry.js").View} View
+ * @import {Alternative, Letter, Maneuver, Scene, Track} from "../shared/types.js"
+ * @import {Point, View} from "../shared/geometry.js"
  */
 import { part, polyline, setAttributes } from "../shared/dom.js";
 import { DEGREE, toScreen } from "../shared/geometry.js";

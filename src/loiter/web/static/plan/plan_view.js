@@ -2,11 +2,11 @@
 /**
  * The plan view: grid, circle, paths, ghost, and the handles that change the scene.
  *
- * @typedef {import("../state/store.js").Store} Store
- * @typedef {import("../state/page_state.js").PageState} PageState
- * @typedef {import("../state/actions.js").Actions} Actions
- * @typedef {import("../shared/geometry.js").Box} Box
- * @typedef {import("./camera.js").PlanCamera} PlanCamera
+ * @import {Store} from "../state/store.js"
+ * @import {PageState} from "../state/page_state.js"
+ * @import {Actions} from "../state/actions.js"
+ * @import {Box} from "../shared/geometry.js"
+ * @import {PlanCamera} from "./camera.js"
  */
 import { boxWithin, byId, fill, observeSize, setAttributes, setSize, show, svg, svgLayers, watchPointed } from "../shared/dom.js";
 import { orbitMoves } from "../scene/scene.js";

@@ -2,10 +2,10 @@
 /**
  * The race: other guidance laws from the same start, each with its path, a ghost, and how much later it joins.
  *
- * @typedef {import("../state/store.js").Store} Store
- * @typedef {import("../state/page_state.js").PageState} PageState
- * @typedef {import("../state/actions.js").Actions} Actions
- * @typedef {import("../shared/types.js").Racer} Racer
+ * @import {Store} from "../state/store.js"
+ * @import {PageState} from "../state/page_state.js"
+ * @import {Actions} from "../state/actions.js"
+ * @import {Racer} from "../shared/types.js"
  */
 import { byId, html, polyline, setAttributes, show, svg } from "../shared/dom.js";
 import { positionToScreen, toScreen } from "../shared/geometry.js";

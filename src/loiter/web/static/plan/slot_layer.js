@@ -2,9 +2,9 @@
 /**
  * The slot in the plan view: its handle, on the circle at its bearing, and while the ghost flies, where it is by then.
  *
- * @typedef {import("../state/store.js").Store} Store
- * @typedef {import("../shared/types.js").Scene} Scene
- * @typedef {import("./handles.js").Handle} Handle
+ * @import {Store} from "../state/store.js"
+ * @import {Scene} from "../shared/types.js"
+ * @import {Handle} from "./handles.js"
  */
 import { slotPoseOf } from "../requests/api.js";
 import { withoutSlot, withSlot } from "../scene/slot.js";

@@ -3,8 +3,8 @@
  * Map tiles behind the plan view, once the user has switched them on: until then nothing is requested from another
  * machine. They are drawn by a document of its own, whose security policy allows pictures from the one tile server.
  *
- * @typedef {import("../state/store.js").Store} Store
- * @typedef {import("../state/actions.js").Actions} Actions
+ * @import {Store} from "../state/store.js"
+ * @import {Actions} from "../state/actions.js"
  */
 import { markInvalid, errorLine } from "../fields/input_fields.js";
 import { byId, html, show } from "../shared/dom.js";

@@ -2,12 +2,9 @@
 /**
  * The dial of the wind and its handle.
  *
- * @typedef {import("../shared/types.js").Scene} Scene
- * @typedef {import("../shared/geometry.js").View} View
- * @typedef {import("../shared/geometry.js").Box} Box
- * @typedef {import("../shared/geometry.js").Point} Point
- * @typedef {import("./handles.js").Handle} Handle
- * @typedef {import("./handles.js").Stage} Stage
+ * @import {Scene} from "../shared/types.js"
+ * @import {Box, Point, View} from "../shared/geometry.js"
+ * @import {Handle, Stage} from "./handles.js"
  */
 import { withWind } from "../scene/scene.js";
 import { polyline, setAttributes, setText, svg } from "../shared/dom.js";

@@ -2,8 +2,7 @@
 /**
  * The one seam between the page and the library: answers to scenes, computed here, and refusals with one sentence.
  *
- * @typedef {import("../shared/types.js").Scene} Scene
- * @typedef {import("../shared/types.js").Altitude} Altitude
+ * @import {Altitude, Scene} from "../shared/types.js"
  * @typedef {Parameters<typeof engine.synthesis>[0]} MapQuery
  */
 import * as engine from "../kernel/engine.js";

@@ -3,8 +3,8 @@
  * The search for the fastest clear entry, where the plan is not clear of the fence. It takes a second, so it runs in a
  * worker, when a drag pauses.
  *
- * @typedef {import("../state/store.js").Store} Store
- * @typedef {import("../shared/types.js").ClearEntry} ClearEntry
+ * @import {Store} from "../state/store.js"
+ * @import {ClearEntry} from "../shared/types.js"
  */
 import { workerTask } from "./worker_task.js";
 

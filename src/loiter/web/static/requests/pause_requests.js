@@ -2,12 +2,9 @@
 /**
  * The answers that wait until a drag pauses: the certificate of the plan, and the map of the reduced plane.
  *
- * @typedef {import("../state/store.js").Store} Store
- * @typedef {import("../shared/types.js").Scene} Scene
- * @typedef {import("../state/page_state.js").PageState} PageState
- * @typedef {import("../state/page_state.js").MapOptions} MapOptions
- * @typedef {import("../shared/types.js").Answer} Answer
- * @typedef {import("../shared/types.js").Proof} Proof
+ * @import {Store} from "../state/store.js"
+ * @import {Answer, Proof, Scene} from "../shared/types.js"
+ * @import {MapOptions, PageState} from "../state/page_state.js"
  */
 import { drifts } from "../scene/scene.js";
 import { certificateOf, mapOf } from "./api.js";

@@ -2,8 +2,8 @@
 /**
  * The plan of the scene.
  *
- * @typedef {import("../state/store.js").Store} Store
- * @typedef {import("../state/page_state.js").PageState} PageState
+ * @import {Store} from "../state/store.js"
+ * @import {PageState} from "../state/page_state.js"
  */
 import { refusalOf } from "../fields/field_names.js";
 import { NO_MESSAGE } from "../state/page_state.js";

@@ -4,7 +4,7 @@
  * delay from a move of the pointer to the drawing of its path, as entries "move to path" of the browser's performance
  * timeline.
  *
- * @typedef {import("../state/store.js").Store} Store
+ * @import {Store} from "../state/store.js"
  *
  * @typedef {ReturnType<typeof createLatency>} Latency
  */

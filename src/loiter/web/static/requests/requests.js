@@ -3,7 +3,7 @@
  * The answers that the page needs. Each change of the scene is answered at once by a plan with every candidate; its
  * certificate and map follow when the drag pauses.
  *
- * @typedef {import("../state/store.js").Store} Store
+ * @import {Store} from "../state/store.js"
  * @typedef {ReturnType<typeof createRequests>} Requests
  */
 import { PAUSE_MS, debounced } from "../shared/dom.js";

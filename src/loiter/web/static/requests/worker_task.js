@@ -2,7 +2,7 @@
 /**
  * What takes long is computed in a worker, so that the page stays quick; what is no longer needed is ended.
  *
- * @typedef {import("../state/store.js").Store} Store
+ * @import {Store} from "../state/store.js"
  */
 
 /** A worker with the library: of the served page a module, of the site its one script. */

@@ -3,9 +3,9 @@
  * The address of the page is a link to what it shows. Each step of the user is an entry in the history of the browser,
  * so that Back, and the button that undoes, return to the state before.
  *
- * @typedef {import("../state/store.js").Store} Store
- * @typedef {import("../state/page_state.js").PageState} PageState
- * @typedef {import("../state/actions.js").Actions} Actions
+ * @import {Store} from "../state/store.js"
+ * @import {PageState} from "../state/page_state.js"
+ * @import {Actions} from "../state/actions.js"
  *
  * @typedef {Pick<PageState, "step" | "scene" | "place" | "altitude" | "camera">} Entry  of the history
  */

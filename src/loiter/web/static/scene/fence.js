@@ -2,10 +2,7 @@
 /**
  * The fence of a scene: zones to stay in or out of, and scenes with a zone changed.
  *
- * @typedef {import("../shared/types.js").Scene} Scene
- * @typedef {import("../shared/types.js").Zone} Zone
- * @typedef {import("../shared/types.js").CircleZone} CircleZone
- * @typedef {import("../shared/types.js").PolygonZone} PolygonZone
+ * @import {PolygonZone, Scene, Zone} from "../shared/types.js"
  */
 
 /** The zones of a scene. @param {Scene} scene */

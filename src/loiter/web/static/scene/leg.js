@@ -2,8 +2,7 @@
 /**
  * The leg of a scene: what is flown after the entry, and scenes with a part of it changed.
  *
- * @typedef {import("../shared/types.js").Scene} Scene
- * @typedef {import("../shared/types.js").Leg} Leg
+ * @import {Leg, Scene} from "../shared/types.js"
  */
 import { powerBelow, tidy } from "../shared/units.js";
 

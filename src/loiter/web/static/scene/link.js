@@ -2,14 +2,7 @@
 /**
  * Links to a scene: its numbers as the fragment of the address, named like the options of the command line.
  *
- * @typedef {import("../shared/types.js").Scene} Scene
- * @typedef {import("../shared/types.js").Aircraft} Aircraft
- * @typedef {import("../shared/types.js").Altitude} Altitude
- * @typedef {import("../shared/types.js").Leg} Leg
- * @typedef {import("../shared/types.js").Limit} Limit
- * @typedef {import("../shared/types.js").Reference} Reference
- * @typedef {import("../shared/types.js").Turn} Turn
- * @typedef {import("../shared/types.js").Units} Units
+ * @import {Aircraft, Altitude, Leg, Limit, Reference, Scene, Turn, Units} from "../shared/types.js"
  *
  * @typedef {object} Linked
  * @property {Scene} scene

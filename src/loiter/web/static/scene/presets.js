@@ -2,9 +2,9 @@
 /**
  * Example scenes.
  *
- * @typedef {import("../shared/types.js").Scene} Scene
- * @typedef {import("../state/store.js").Store} Store
- * @typedef {import("../state/actions.js").Actions} Actions
+ * @import {Scene} from "../shared/types.js"
+ * @import {Store} from "../state/store.js"
+ * @import {Actions} from "../state/actions.js"
  */
 import { byId, html } from "../shared/dom.js";
 

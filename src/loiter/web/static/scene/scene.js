@@ -2,10 +2,7 @@
 /**
  * Properties of a scene and its aircraft, and scenes with one part changed.
  *
- * @typedef {import("../shared/types.js").Scene} Scene
- * @typedef {import("../shared/types.js").Wind} Wind
- * @typedef {import("../shared/types.js").Aircraft} Aircraft
- * @typedef {import("../shared/types.js").Limit} Limit
+ * @import {Aircraft, Limit, Scene, Wind} from "../shared/types.js"
  */
 
 /** @param {Scene} scene @param {Partial<Scene["pose"]>} pose @returns {Scene} */

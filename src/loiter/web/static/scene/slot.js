@@ -2,8 +2,7 @@
 /**
  * The slot of a scene: a place on the circle that moves with the hold, which the plan is to enter.
  *
- * @typedef {import("../shared/types.js").Scene} Scene
- * @typedef {import("../shared/types.js").Slot} Slot
+ * @import {Scene, Slot} from "../shared/types.js"
  */
 
 /** A scene with another place of its slot, which it then has, and no leg. @param {Scene} scene @param {Partial<Slot>} slot @returns {Scene} */

@@ -3,7 +3,7 @@
  * Handles: parts of a drawing that are moved by mouse, finger or arrow keys. Assistive software sees a slider, whose
  * text gives both coordinates.
  *
- * @typedef {import("./geometry.js").Point} Point
+ * @import {Point} from "./geometry.js"
  *
  * @typedef {object} Moves
  * @property {() => void} [begin]  a drag begins

@@ -3,7 +3,7 @@
  * WGS84 latitude and longitude to metres east and north of an origin and back: the azimuthal equidistant plane of the
  * library (`loiter.geo`), to a millimetre within 10 km and a decimetre within 100 km.
  *
- * @typedef {import("./types.js").Origin} Origin
+ * @import {Origin} from "./types.js"
  */
 import { DEGREE } from "./geometry.js";
 

@@ -2,7 +2,7 @@
 /**
  * The page inside another one, `?embed`: the plan alone, with a link that opens the whole page.
  *
- * @typedef {import("../state/store.js").Store} Store
+ * @import {Store} from "../state/store.js"
  */
 import { linkOf } from "../scene/address.js";
 import { byId } from "./dom.js";

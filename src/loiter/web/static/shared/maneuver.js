@@ -2,13 +2,7 @@
 /**
  * Maneuvers: names of controls and directions, segments, and the state at a time.
  *
- * @typedef {import("./types.js").Direction} Direction
- * @typedef {import("./types.js").Letter} Letter
- * @typedef {import("./types.js").Track} Track
- * @typedef {import("./types.js").Maneuver} Maneuver
- * @typedef {import("./types.js").Answer} Answer
- * @typedef {import("./types.js").Alternative} Alternative
- * @typedef {import("./types.js").Scene} Scene
+ * @import {Alternative, Answer, Direction, Letter, Maneuver, Scene, Track} from "./types.js"
  *
  * @typedef {{east_m: number, north_m: number, heading_deg: number, x: number, y: number}} Instant
  */

@@ -2,8 +2,8 @@
 /**
  * The light or dark theme: that of the system, until the user switches.
  *
- * @typedef {import("../state/store.js").Store} Store
- * @typedef {import("../state/page_state.js").Theme} Theme
+ * @import {Store} from "../state/store.js"
+ * @import {Theme} from "../state/page_state.js"
  */
 import { byId } from "./dom.js";
 import { recall, remember } from "./storage.js";

@@ -3,8 +3,7 @@
  * The turn radius that a limit gives, and back: the page's only formulas of flight, which are needed before there is an
  * answer. A test compares them with `loiter.Aircraft`.
  *
- * @typedef {import("./types.js").Aircraft} Aircraft
- * @typedef {import("./types.js").Limit} Limit
+ * @import {Aircraft, Limit} from "./types.js"
  */
 import { DEGREE } from "./geometry.js";
 

@@ -2,8 +2,7 @@
 /**
  * Units and formats of the numbers that are shown and typed. All other code uses metres, seconds and degrees.
  *
- * @typedef {import("./types.js").Scene} Scene
- * @typedef {import("./types.js").Units} Units
+ * @import {Scene, Units} from "./types.js"
  * @typedef {"length" | "speed" | "degrees" | "direction" | "rate" | "climb" | "time" | "count"} Quantity
  */
 
@@ -13,27 +12,25 @@ const NAUTICAL_MILE_M = 1852;
 const KNOT_M_S = NAUTICAL_MILE_M / 3600;
 const MILE_PER_HOUR_M_S = 1609.344 / 3600;
 
+const METRIC = {
+  length: { name: "m", size: 1 },
+  speed: { name: "m/s", size: 1 },
+  degrees: { name: "°", size: 1 },
+  direction: { name: "°", size: 1 },
+  rate: { name: "°/s", size: 1 },
+  climb: { name: "m/s", size: 1 },
+  time: { name: "s", size: 1 },
+  count: { name: "", size: 1 },
+};
+
 /** @type {Record<Units, Record<Quantity, {name: string, size: number}>>} */
 const SCALES = {
-  metric: {
-    length: { name: "m", size: 1 },
-    speed: { name: "m/s", size: 1 },
-    degrees: { name: "°", size: 1 },
-    direction: { name: "°", size: 1 },
-    rate: { name: "°/s", size: 1 },
-    climb: { name: "m/s", size: 1 },
-    time: { name: "s", size: 1 },
-    count: { name: "", size: 1 },
-  },
+  metric: METRIC,
   aviation: {
+    ...METRIC,
     length: { name: "ft", size: FOOT_M },
     speed: { name: "kt", size: KNOT_M_S },
-    degrees: { name: "°", size: 1 },
-    direction: { name: "°", size: 1 },
-    rate: { name: "°/s", size: 1 },
     climb: { name: "ft/min", size: FOOT_M / 60 },
-    time: { name: "s", size: 1 },
-    count: { name: "", size: 1 },
   },
 };
 
@@ -58,57 +55,22 @@ const FAR = {
 export const lengthUnit = (units, metres) =>
   Math.abs(metres) >= FAR[units].from ? FAR[units] : unitOf("length", units);
 
-/**
- * The units that may be typed after a number, in lower case, with their sizes.
- *
- * @type {Record<Quantity, Map<string, number>>}
- */
+const DEGREES = { "°": 1, deg: 1 };
+
+/** The units that may be typed after a number, in lower case, with their sizes. @type {Record<Quantity, Record<string, number>>} */
 const ACCEPTED = {
-  length: new Map([
-    ["m", 1],
-    ["km", 1000],
-    ["ft", FOOT_M],
-    ["nm", NAUTICAL_MILE_M],
-    ["nmi", NAUTICAL_MILE_M],
-  ]),
-  speed: new Map([
-    ["m/s", 1],
-    ["km/h", 1 / 3.6],
-    ["kn", KNOT_M_S],
-    ["kt", KNOT_M_S],
-    ["kts", KNOT_M_S],
-    ["mph", MILE_PER_HOUR_M_S],
-  ]),
-  degrees: new Map([
-    ["°", 1],
-    ["deg", 1],
-  ]),
-  direction: new Map([
-    ["°", 1],
-    ["deg", 1],
-    ["t", 1],
-  ]),
-  rate: new Map([
-    ["°/s", 1],
-    ["deg/s", 1],
-  ]),
-  climb: new Map([
-    ["m/s", 1],
-    ["ft/min", FOOT_M / 60],
-    ["fpm", FOOT_M / 60],
-  ]),
-  time: new Map([
-    ["s", 1],
-    ["min", 60],
-  ]),
-  count: new Map([
-    ["turn", 1],
-    ["turns", 1],
-  ]),
+  length: { m: 1, km: 1000, ft: FOOT_M, nm: NAUTICAL_MILE_M, nmi: NAUTICAL_MILE_M },
+  speed: { "m/s": 1, "km/h": 1 / 3.6, kn: KNOT_M_S, kt: KNOT_M_S, kts: KNOT_M_S, mph: MILE_PER_HOUR_M_S },
+  degrees: DEGREES,
+  direction: { ...DEGREES, t: 1 },
+  rate: { "°/s": 1, "deg/s": 1 },
+  climb: { "m/s": 1, "ft/min": FOOT_M / 60, fpm: FOOT_M / 60 },
+  time: { s: 1, min: 60 },
+  count: { turn: 1, turns: 1 },
 };
 
-/** The units that may be typed for a quantity. @param {Quantity} quantity */
-export const acceptedUnits = (quantity) => ACCEPTED[quantity];
+/** The units that may be typed for a quantity, with their sizes. @param {Quantity} quantity */
+export const acceptedUnits = (quantity) => new Map(Object.entries(ACCEPTED[quantity]));
 
 /** What stands between thousands: a narrow space that breaks no line. Commas mean decimals in some countries. */
 const THOUSANDS = "\u202f";

@@ -2,11 +2,11 @@
 /**
  * What the user does, as changes of the state.
  *
- * @typedef {import("./store.js").Store} Store
- * @typedef {import("./page_state.js").PageState} PageState
- * @typedef {import("../shared/types.js").Scene} Scene
- * @typedef {import("../requests/requests.js").Requests} Requests
- * @typedef {import("../requests/progress.js").Latency} Latency
+ * @import {Store} from "./store.js"
+ * @import {PageState} from "./page_state.js"
+ * @import {Scene} from "../shared/types.js"
+ * @import {Requests} from "../requests/requests.js"
+ * @import {Latency} from "../requests/progress.js"
  * @typedef {ReturnType<typeof createActions>} Actions
  */
 import { lapOf } from "../requests/api.js";

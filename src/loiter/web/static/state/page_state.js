@@ -3,15 +3,8 @@
  * The state of the page. A plan, its certificate and the map are each in one of four states: `idle` (that of the scene),
  * `stale` (the scene has changed; computed again when the drag pauses), `asking` (being computed) and `failed`.
  *
- * @typedef {import("../shared/types.js").Scene} Scene
- * @typedef {import("../shared/types.js").Answer} Answer
- * @typedef {import("../shared/types.js").Proof} Proof
- * @typedef {import("../shared/types.js").Units} Units
- * @typedef {import("../shared/types.js").Altitude} Altitude
- * @typedef {import("../shared/types.js").Origin} Origin
- * @typedef {import("../shared/types.js").Synthesis} Synthesis
- * @typedef {import("../shared/types.js").FenceCheck} FenceCheck
- * @typedef {import("../shared/geometry.js").View} View
+ * @import {Altitude, Answer, FenceCheck, Origin, Proof, Scene, Synthesis, Units} from "../shared/types.js"
+ * @import {View} from "../shared/geometry.js"
  *
  * @typedef {"idle" | "stale" | "asking" | "failed"} Status
  * @typedef {"light" | "dark"} Theme

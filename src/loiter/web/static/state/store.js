@@ -2,7 +2,7 @@
 /**
  * The store holds the state of the page. A change replaces parts of the state; watchers draw what has changed.
  *
- * @typedef {import("./page_state.js").PageState} PageState
+ * @import {PageState} from "./page_state.js"
  *
  * @typedef {object} Store
  * @property {() => PageState} get

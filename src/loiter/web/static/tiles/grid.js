@@ -2,9 +2,8 @@
 /**
  * The tiles of a map in web Mercator, and where they lie on the screen.
  *
- * @typedef {import("../shared/types.js").Origin} Origin
- * @typedef {import("../shared/geometry.js").View} View
- * @typedef {import("../shared/geometry.js").Point} Point
+ * @import {Origin} from "../shared/types.js"
+ * @import {Point, View} from "../shared/geometry.js"
  * @typedef {{z: number, x: number, y: number}} Tile
  */
 import { REACH_M, toLocal, toPlace } from "../shared/earth.js";

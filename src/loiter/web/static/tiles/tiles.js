@@ -3,8 +3,8 @@
  * Draws map tiles in a document of its own, behind the plan view. Its security policy allows pictures from one tile
  * server; that of the page allows none. The page sends what to show.
  *
- * @typedef {import("../shared/geometry.js").View} View
- * @typedef {import("../shared/types.js").Origin} Origin
+ * @import {View} from "../shared/geometry.js"
+ * @import {Origin} from "../shared/types.js"
  * @typedef {{view: View, origin: Origin, theme: string}} Shown
  */
 import { html } from "../shared/dom.js";

@@ -2,8 +2,8 @@
 /**
  * The altitude of a leg over time, below the time line and with its scale.
  *
- * @typedef {import("../state/store.js").Store} Store
- * @typedef {import("../state/page_state.js").PageState} PageState
+ * @import {Store} from "../state/store.js"
+ * @import {PageState} from "../state/page_state.js"
  */
 import { byId, fill, part, polyline, setAttributes, setSize, show } from "../shared/dom.js";
 import { interpolator } from "../shared/maneuver.js";

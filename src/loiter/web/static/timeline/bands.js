@@ -2,9 +2,7 @@
 /**
  * The drawings of the time line: a strip for the control u, a band for phi and one for psi, and an axis.
  *
- * @typedef {import("../shared/types.js").Letter} Letter
- * @typedef {import("../shared/types.js").Proof} Proof
- * @typedef {import("../shared/types.js").Segment} Segment
+ * @import {Letter, Proof, Segment} from "../shared/types.js"
  * @typedef {{top: number, height: number}} Band
  * @typedef {ReturnType<typeof timeScale>} TimeScale
  */

@@ -2,8 +2,8 @@
 /**
  * The playback: its clock and its controls.
  *
- * @typedef {import("../state/store.js").Store} Store
- * @typedef {import("../state/actions.js").Actions} Actions
+ * @import {Store} from "../state/store.js"
+ * @import {Actions} from "../state/actions.js"
  */
 import { byId, html } from "../shared/dom.js";
 import { durationOf, endOf, shownTime } from "../state/page_state.js";

@@ -4,8 +4,8 @@
  * what the certificate checks: phi > 0 turns left, phi < 0 turns right, phi = 0 allows straight flight, and psi1 equals
  * lambda where phi vanishes.
  *
- * @typedef {import("../state/store.js").Store} Store
- * @typedef {import("../state/actions.js").Actions} Actions
+ * @import {Store} from "../state/store.js"
+ * @import {Actions} from "../state/actions.js"
  */
 import { byId, fill, observeSize, setAttributes, setSize, show, svg, svgLayers } from "../shared/dom.js";
 import { pointOf } from "../shared/draggable.js";
