@@ -35,24 +35,15 @@ METRES_ONLY = (
 FenceFile = Annotated[Path | None, Parameter(group=scene, metavar="FILE")]
 
 
-@Parameter(name="*")
+@Parameter(name="*", group=scene)
 @dataclass(frozen=True)
 class FenceOptions:
     """A fence, and how far from it the path must stay."""
 
-    fence: Annotated[
-        FenceFile,
-        Parameter(
-            help="Fence of polygons and circles: .plan of QGroundControl, QGC WPL 110 with fence items, latitudes and longitudes as ArduPilot's fence.txt, or for scenes in metres a .csv with the columns zone, rule (in or out), east_m, north_m and radius_m. A line says whether the plan and its hold stay clear, and if not, where and when they enter which zone, and the fastest clear entry found, which files and pictures then have: exit status 1. That of --orbit-from if absent.",
-        ),
-    ] = None
-    margin: Annotated[
-        Metres,
-        Parameter(
-            group=scene,
-            help="Least distance from the fence; if absent, what loiter guide may be beside its path: 5 % of the radius, and 5 m at least.",
-        ),
-    ] = None
+    fence: FenceFile = None
+    """Fence of polygons and circles: .plan of QGroundControl, QGC WPL 110 with fence items, latitudes and longitudes as ArduPilot's fence.txt, or for scenes in metres a .csv with the columns zone, rule (in or out), east_m, north_m and radius_m. A line says whether the plan and its hold stay clear, and if not, where and when they enter which zone, and the fastest clear entry found, which files and pictures then have: exit status 1. That of --orbit-from if absent."""
+    margin: Metres = None
+    """Least distance from the fence; if absent, what loiter guide may be beside its path: 5 % of the radius, and 5 m at least."""
 
     def read(self, site: Site | None) -> PlacedFence | Fence | None:
         """The fence of the file, or that of an existing mission; None without one. Raises `InvalidArgument`.
@@ -78,12 +69,8 @@ class FenceOptions:
 class BatchFenceOptions(FenceOptions):
     """A fence against which each row of a table is checked."""
 
-    fence: Annotated[
-        FenceFile,
-        Parameter(
-            help="Fence of polygons and circles, in the formats of loiter plan: a .csv where the table is in metres. Columns say whether each row stays clear, and if not, which zone it enters when, and the time of the fastest clear entry found.",
-        ),
-    ] = None
+    fence: FenceFile = None
+    """Fence of polygons and circles, in the formats of loiter plan: a .csv where the table is in metres. Columns say whether each row stays clear, and if not, which zone it enters when, and the time of the fastest clear entry found."""
 
 
 @Parameter(name="*")
@@ -91,12 +78,8 @@ class BatchFenceOptions(FenceOptions):
 class LegFenceOptions(FenceOptions):
     """A fence, of which a whole leg is checked."""
 
-    fence: Annotated[
-        FenceFile,
-        Parameter(
-            help="Fence of polygons and circles, in the formats of loiter plan. A line says whether the way in, the whole circle and the way out stay clear, and if not, where and when they enter which zone: exit status 1. A .plan has the fence too.",
-        ),
-    ] = None
+    fence: FenceFile = None
+    """Fence of polygons and circles, in the formats of loiter plan. A line says whether the way in, the whole circle and the way out stay clear, and if not, where and when they enter which zone: exit status 1. A .plan has the fence too."""
 
 
 @Parameter(name="*")
@@ -104,12 +87,8 @@ class LegFenceOptions(FenceOptions):
 class FlownFenceOptions(FenceOptions):
     """A fence that a simulated flight stays clear of."""
 
-    fence: Annotated[
-        FenceFile,
-        Parameter(
-            help="The optimal law stays clear of a fence: that of a file, as for loiter plan. Lines say how far each law stayed from it.",
-        ),
-    ] = None
+    fence: FenceFile = None
+    """The optimal law stays clear of a fence: that of a file, as for loiter plan. Lines say how far each law stayed from it."""
 
 
 @Parameter(name="*")
@@ -117,12 +96,8 @@ class FlownFenceOptions(FenceOptions):
 class GuidedFenceOptions(FenceOptions):
     """A fence, which may be that of the vehicle."""
 
-    fence: Annotated[
-        FenceFile,
-        Parameter(
-            help="Stay clear of a fence: that of a file, as for loiter plan, or with --fence vehicle the one that the vehicle has. The fastest clear entry that is found is flown, and a flight without any refused. In flight the vehicle is handed back to its own hold where it enters a zone.",
-        ),
-    ] = None
+    fence: FenceFile = None
+    """Stay clear of a fence: that of a file, as for loiter plan, or with --fence vehicle the one that the vehicle has. The fastest clear entry that is found is flown, and a flight without any refused. In flight the vehicle is handed back to its own hold where it enters a zone."""
 
     def of_flight(self) -> PlacedFence | OwnFence | None:
         """The fence of the file, or "vehicle"; None without one. Raises `InvalidArgument`."""

@@ -28,6 +28,7 @@ from loiter.cli.numbers import (
     turn_name,
     turn_rate,
     values_given,
+    whole,
 )
 from loiter.cli.sentences import argument_names
 from loiter.errors import InvalidArgument, positive
@@ -53,168 +54,94 @@ missions = Group("Missions", sort_key=6)
 # Default chord error, metres, the same as that of the library.
 CHORD_ERROR_M = 1.0
 
-# The types of options that several classes and commands have. Those that differ in their group or help add it.
-PoseMetres = Annotated[
-    tuple[float, float, float] | None,
-    Parameter(
-        group=scene,
-        converter=several(metres, metres, direction),
-        metavar="EAST NORTH HEADING",
-        help="Pose of the aircraft: metres, and heading in degrees clockwise from north.",
-    ),
-]
-CIRCLE_METRES = Parameter(
-    group=scene,
-    converter=several(metres, metres, metres),
-    metavar="EAST NORTH RADIUS",
-    help="The circle: centre and radius, metres.",
-)
-CIRCLE_DEGREES = Parameter(group=scene, converter=several(latitude, longitude, metres), metavar="LAT LON RADIUS")
+# Types of options by what they hold; a class of options adds the group, and the docstring of each is its help.
+Seconds = Annotated[float, Parameter(metavar="SECONDS")]
+Metres = Annotated[float | None, Parameter(converter=one(metres), metavar="METRES")]
+Altitude = Annotated[float | None, Parameter(converter=one(altitude), metavar="METRES")]
+Speed = Annotated[float | None, Parameter(converter=one(metres_per_second), metavar="M_PER_S")]
+Angle = Annotated[float | None, Parameter(converter=one(angle), metavar="DEGREES")]
+Bearing = Annotated[float | None, Parameter(metavar="DEGREES")]
+TurnRate = Annotated[float | None, Parameter(converter=one(turn_rate), metavar="DEG_PER_S")]
+Whole = Annotated[int | None, Parameter(converter=whole, metavar="N")]
+File = Annotated[Path | None, Parameter(metavar="FILE")]
+EAST_NORTH = Parameter(converter=several(metres, metres), metavar="EAST NORTH")
+LAT_LON = Parameter(converter=several(latitude, longitude), metavar="LAT LON")
+EAST_NORTH_HEADING = Parameter(converter=several(metres, metres, direction), metavar="EAST NORTH HEADING")
+LAT_LON_HEADING = Parameter(converter=several(latitude, longitude, direction), metavar="LAT LON HEADING")
+EAST_NORTH_RADIUS = Parameter(converter=several(metres, metres, metres), metavar="EAST NORTH RADIUS")
+LAT_LON_RADIUS = Parameter(converter=several(latitude, longitude, metres), metavar="LAT LON RADIUS")
 # As many numbers as are given: the radius may come from somewhere else.
 Circle = Annotated[tuple[float, ...], Parameter(consume_multiple=True)]
-TurnChoice = Annotated[TurnName | None, Parameter(group=scene, converter=turn_name)]
-TURN_HELP = "seen from above: cw is clockwise, ccw counter-clockwise, either the faster one. If absent:"
-VELOCITY = Parameter(
-    group=air,
-    converter=several(metres_per_second, metres_per_second),
-    metavar="EAST NORTH",
-    help="Velocity of the circle over the ground, metres per second; --orbit is its position at the start.",
-)
-Airspeed = Annotated[
-    float | None,
-    Parameter(
-        group=aircraft,
-        converter=one(metres_per_second),
-        metavar="M_PER_S",
-        help="True airspeed, metres per second, or with a unit: 35kn.",
-    ),
-]
-Bank = Annotated[
-    float | None,
-    Parameter(group=aircraft, converter=one(angle), metavar="DEGREES", help="Largest bank, degrees."),
-]
-TurnRadius = Annotated[
-    float | None,
-    Parameter(group=aircraft, converter=one(metres), metavar="METRES", help="Smallest turn radius, metres."),
-]
-TurnRate = Annotated[
-    float | None,
-    Parameter(
-        group=aircraft,
-        converter=one(turn_rate),
-        metavar="DEG_PER_S",
-        help="Largest turn rate, degrees per second.",
-    ),
-]
-Altitude = Annotated[float | None, Parameter(group=aircraft, converter=one(altitude), metavar="METRES")]
-WIND_HELP = "Wind speed, metres per second, and the compass direction that the wind comes from; or as in weather reports, 250/15kn or 25015KT"
+TurnChoice = Annotated[TurnName | None, Parameter(converter=turn_name)]
+VELOCITY = Parameter(converter=several(metres_per_second, metres_per_second), metavar="EAST NORTH")
 WindChoice = Annotated[
-    tuple[float, float] | None,
-    Parameter(group=air, converter=several(metres_per_second, direction), metavar="SPEED FROM"),
+    tuple[float, float] | None, Parameter(converter=several(metres_per_second, direction), metavar="SPEED FROM")
 ]
-Metres = Annotated[float | None, Parameter(converter=one(metres), metavar="METRES")]
-Tolerance = Annotated[float, Parameter(group=scene, converter=one(metres), metavar="METRES")]
-TOLERANCE_HELP = (
-    "A start that is beyond the circle, or beyond the last arc onto it, by up to this many metres counts as on it"
-)
+Tolerance = Annotated[float, Parameter(converter=one(metres), metavar="METRES")]
+Columns = Annotated[list[str] | None, Parameter(name="--map", metavar="NAME=COLUMN", negative=())]
+
+# Options of several commands.
 Files = Annotated[tuple[Path, ...], Parameter(group=output, metavar="FILE")]
 AutopilotChoice = Annotated[
     AutopilotName, Parameter(group=missions, help="The autopilot that missions are for. PX4 takes .plan only.")
 ]
 Json = Annotated[bool, Parameter(group=output, help="Print one JSON object.")]
-Rate = Annotated[float | None, Parameter(group=way_out, converter=one(metres_per_second), metavar="M_PER_S")]
-ClimbRate = Annotated[Rate, Parameter(help="Rate at which it climbs.")]
-DescentRate = Annotated[Rate, Parameter(help="Rate at which it descends.")]
 
 
-def column_map(group: Group) -> Parameter:
-    """The option --map of commands that read a table, in a group of their help."""
-    return Parameter(
-        name="--map",
-        group=group,
-        metavar="NAME=COLUMN",
-        negative=(),
-        help="The column of the table that holds a quantity, if it has another name or unit: east_m='X_East [ft]'; may be repeated. Its unit is at the end of its name, or added in brackets.",
-    )
-
-
-SlotBearing = Annotated[
-    float | None,
-    Parameter(
-        group=scene,
-        metavar="DEGREES",
-        help="Enter the slot that is at this bearing from the centre, a place that moves round the circle with the hold.",
-    ),
-]
-SlotBand = Annotated[
-    float | None,
-    Parameter(
-        group=scene,
-        metavar="SHARE",
-        help="The largest share by which the radius of the hold may differ from that of the circle, to keep the slot; 0.15 if absent.",
-    ),
-]
-SlotTime = Annotated[
-    float | None,
-    Parameter(
-        group=scene,
-        metavar="SECONDS",
-        help="The time from the start at which the slot is at that bearing; 0 if absent.",
-    ),
-]
-
-
-@Parameter(name="*")
+@Parameter(name="*", group=scene)
 @dataclass(frozen=True)
 class StartOptions:
     """The pose of the aircraft, in metres or in degrees."""
 
-    pose: PoseMetres = None
-    pose_lla: Annotated[
-        tuple[float, float, float] | None,
-        Parameter(
-            group=scene,
-            converter=several(latitude, longitude, direction),
-            metavar="LAT LON HEADING",
-            help="Pose of the aircraft: WGS84 degrees, 47.1 8.2 or 47.1N 8.2E, and heading in degrees clockwise from true north.",
-        ),
-    ] = None
+    pose: Annotated[tuple[float, float, float] | None, EAST_NORTH_HEADING] = None
+    """Pose of the aircraft: metres, and heading in degrees clockwise from north."""
+    pose_lla: Annotated[tuple[float, float, float] | None, LAT_LON_HEADING] = None
+    """Pose of the aircraft: WGS84 degrees, 47.1 8.2 or 47.1N 8.2E, and heading in degrees clockwise from true north."""
 
 
-@Parameter(name="*")
+@Parameter(name="*", group=scene)
 @dataclass(frozen=True)
 class PlacedStartOptions(StartOptions):
     """The pose of the aircraft in degrees, for commands that need places on Earth; --pose is parsed, but hidden."""
 
-    pose: Annotated[PoseMetres, Parameter(show=False)] = None
+    pose: Annotated[tuple[float, float, float] | None, EAST_NORTH_HEADING, Parameter(show=False)] = None
 
 
-@Parameter(name="*")
+@Parameter(name="*", group=scene)
+@dataclass(frozen=True)
+class SlotOptions:
+    """A slot, and the time at which it is at its bearing."""
+
+    slot: Bearing = None
+    """Enter the slot that is at this bearing from the centre, a place that moves round the circle with the hold."""
+    slot_at: Annotated[float | None, Parameter(metavar="SECONDS")] = None
+    """The time from the start at which the slot is at that bearing; 0 if absent."""
+
+
+@Parameter(name="*", group=scene)
+@dataclass(frozen=True)
+class BandedSlotOptions(SlotOptions):
+    """A slot that a law enters and keeps."""
+
+    slot_band: Annotated[float | None, Parameter(metavar="SHARE")] = None
+    """The largest share by which the radius of the hold may differ from that of the circle, to keep the slot; 0.15 if absent."""
+
+
+@Parameter(name="*", group=scene)
 @dataclass(frozen=True)
 class OrbitOptions:
     """The circle, in metres or in degrees, and its motion."""
 
-    orbit: Annotated[Circle, CIRCLE_METRES] = ()
-    orbit_lla: Annotated[
-        Circle,
-        CIRCLE_DEGREES,
-        Parameter(help="The circle: centre in WGS84 degrees, radius in metres; the radius may come from --params."),
-    ] = ()
-    orbit_from: Annotated[
-        Path | None,
-        Parameter(
-            group=scene,
-            metavar="FILE",
-            help="Instead of --orbit-lla: the circle of an existing mission, .plan or .waypoints, that of its first loiter item, in its direction. Plans and missions keep its home and its fence, which is checked as with --fence.",
-        ),
-    ] = None
-    turn: Annotated[
-        TurnChoice,
-        Parameter(
-            help=f"Direction of flight around the circle, {TURN_HELP} that of --orbit-from or --params, otherwise either."
-        ),
-    ] = None
-    orbit_velocity: Annotated[tuple[float, float], VELOCITY] = (0.0, 0.0)
+    orbit: Annotated[Circle, EAST_NORTH_RADIUS] = ()
+    """The circle: centre and radius, metres."""
+    orbit_lla: Annotated[Circle, LAT_LON_RADIUS] = ()
+    """The circle: centre in WGS84 degrees, radius in metres; the radius may come from --params."""
+    orbit_from: File = None
+    """Instead of --orbit-lla: the circle of an existing mission, .plan or .waypoints, that of its first loiter item, in its direction. Plans and missions keep its home and its fence, which is checked as with --fence."""
+    turn: TurnChoice = None
+    """Direction of flight around the circle, seen from above: cw is clockwise, ccw counter-clockwise, either the faster one. If absent: that of --orbit-from or --params, otherwise either."""
+    orbit_velocity: Annotated[tuple[float, float], VELOCITY, Parameter(group=air)] = (0.0, 0.0)
+    """Velocity of the circle over the ground, metres per second; --orbit is its position at the start."""
 
     def circle(self, preset: Preset | None) -> tuple[Orbit, LocalFrame | None]:
         """The circle, and the local frame about its centre if it is in degrees; `InvalidArgument` without a circle."""
@@ -269,26 +196,23 @@ class OrbitOptions:
         return Turn.EITHER if otherwise is None else otherwise
 
 
-@Parameter(name="*")
+@Parameter(name="*", group=scene)
 @dataclass(frozen=True)
 class PlacedOrbitOptions(OrbitOptions):
     """The circle in degrees; otherwise like `PlacedStartOptions`."""
 
-    orbit: Annotated[Circle, CIRCLE_METRES, Parameter(show=False)] = ()
+    orbit: Annotated[Circle, EAST_NORTH_RADIUS, Parameter(show=False)] = ()
 
 
-@Parameter(name="*")
+@Parameter(name="*", group=scene)
 @dataclass(frozen=True)
 class GuidedOrbitOptions(PlacedOrbitOptions):
     """The circle, which an autopilot must be able to hold: --orbit-velocity is parsed, but hidden."""
 
-    orbit_lla: Annotated[
-        Circle, CIRCLE_DEGREES, Parameter(help="The circle: centre in WGS84 degrees, radius in metres.")
-    ] = ()
-    turn: Annotated[
-        TurnChoice,
-        Parameter(help="Direction of flight around the circle, seen from above; the faster one if absent."),
-    ] = None
+    orbit_lla: Annotated[Circle, LAT_LON_RADIUS] = ()
+    """The circle: centre in WGS84 degrees, radius in metres."""
+    turn: TurnChoice = None
+    """Direction of flight around the circle, seen from above; the faster one if absent."""
     orbit_velocity: Annotated[tuple[float, float], VELOCITY, Parameter(show=False)] = (0.0, 0.0)
 
 
@@ -303,43 +227,27 @@ def written_altitude(altitude_m: float | None) -> float | None:
     return altitude_m
 
 
-@Parameter(name="*")
+@Parameter(name="*", group=aircraft)
 @dataclass(frozen=True)
 class AircraftOptions:
     """The aircraft, from options or from the parameters of its autopilot, and the density of the air."""
 
-    airspeed: Airspeed = None
-    indicated_airspeed: Annotated[
-        Airspeed,
-        Parameter(
-            help="Instead of --airspeed: indicated airspeed, metres per second; --altitude converts it to true airspeed.",
-        ),
-    ] = None
-    bank: Bank = None
-    turn_radius: TurnRadius = None
+    airspeed: Speed = None
+    """True airspeed, metres per second, or with a unit: 35kn."""
+    indicated_airspeed: Speed = None
+    """Instead of --airspeed: indicated airspeed, metres per second; --altitude converts it to true airspeed."""
+    bank: Angle = None
+    """Largest bank, degrees."""
+    turn_radius: Metres = None
+    """Smallest turn radius, metres."""
     turn_rate: TurnRate = None
-    params: Annotated[
-        Path | None,
-        Parameter(
-            group=aircraft,
-            metavar="FILE",
-            help="Parameter file of ArduPlane (.param) or PX4 (.params): it gives the indicated airspeed, the bank limit, and the circle's radius and direction where no option does.",
-        ),
-    ] = None
-    altitude: Annotated[
-        Altitude,
-        Parameter(
-            help="Altitude above mean sea level, metres, or with a unit: 3000ft; or a flight level: FL100. It converts an indicated airspeed to true airspeed, which is higher in thin air."
-        ),
-    ] = None
-    temperature: Annotated[
-        float | None,
-        Parameter(
-            group=aircraft,
-            metavar="CELSIUS",
-            help="Outside air temperature; that of the standard atmosphere if absent.",
-        ),
-    ] = None
+    """Largest turn rate, degrees per second."""
+    params: File = None
+    """Parameter file of ArduPlane (.param) or PX4 (.params): it gives the indicated airspeed, the bank limit, and the circle's radius and direction where no option does."""
+    altitude: Altitude = None
+    """Altitude above mean sea level, metres, or with a unit: 3000ft; or a flight level: FL100. It converts an indicated airspeed to true airspeed, which is higher in thin air."""
+    temperature: Annotated[float | None, Parameter(metavar="CELSIUS")] = None
+    """Outside air temperature; that of the standard atmosphere if absent."""
 
     @property
     def written_altitude(self) -> float | None:
@@ -431,52 +339,40 @@ class AircraftOptions:
         return 0.0 if self.altitude is None else self.altitude
 
 
-@Parameter(name="*")
+@Parameter(name="*", group=aircraft)
 @dataclass(frozen=True)
 class PlannedAircraftOptions(AircraftOptions):
     """The aircraft; its altitude is written to files, and may be measured from --altitude-reference."""
 
-    altitude: Annotated[
-        Altitude,
-        Parameter(
-            help="Altitude above mean sea level, or above --altitude-reference; metres, or with a unit: 3000ft. It is written to missions and maps, and converts an indicated airspeed to true airspeed, which is higher in thin air; for that alone it may be a flight level: FL100."
-        ),
-    ] = None
+    altitude: Altitude = None
+    """Altitude above mean sea level, or above --altitude-reference; metres, or with a unit: 3000ft. It is written to missions and maps, and converts an indicated airspeed to true airspeed, which is higher in thin air; for that alone it may be a flight level: FL100."""
 
 
-@Parameter(name="*")
+@Parameter(name="*", group=aircraft)
 @dataclass(frozen=True)
 class WatchedAircraftOptions(AircraftOptions):
     """The aircraft; with --send it is commanded to fly at the altitude."""
 
-    altitude: Annotated[
-        Altitude,
-        Parameter(
-            help="Altitude, always above mean sea level; metres, or with a unit: 3000ft. With --send the circle is flown at this altitude, at the present one if absent. It also converts an indicated airspeed to true airspeed, which is higher in thin air; for that alone it may be a flight level: FL100."
-        ),
-    ] = None
+    altitude: Altitude = None
+    """Altitude, always above mean sea level; metres, or with a unit: 3000ft. With --send the circle is flown at this altitude, at the present one if absent. It also converts an indicated airspeed to true airspeed, which is higher in thin air; for that alone it may be a flight level: FL100."""
 
 
-@Parameter(name="*")
+@Parameter(name="*", group=vehicle_limits)
 @dataclass(frozen=True)
 class GuidedVehicleOptions:
     """The vehicle, as far as its own parameters are not to be used."""
 
-    airspeed: Annotated[Airspeed, Parameter(group=vehicle_limits)] = None
-    bank: Annotated[Bank, Parameter(group=vehicle_limits, help="Largest bank, at most that of the autopilot.")] = None
-    altitude: Annotated[
-        Altitude,
-        Parameter(
-            group=vehicle_limits,
-            help="Altitude at which the circle is flown, always above mean sea level; metres, or with a unit: 3000ft. The present one if absent.",
-        ),
-    ] = None
+    airspeed: Speed = None
+    """True airspeed, metres per second, or with a unit: 35kn."""
+    bank: Angle = None
+    """Largest bank, at most that of the autopilot."""
+    altitude: Altitude = None
+    """Altitude at which the circle is flown, always above mean sea level; metres, or with a unit: 3000ft. The present one if absent."""
 
 
-DeclinationDegrees = Annotated[
+Declination = Annotated[
     float | None,
     Parameter(
-        group=air,
         converter=one(declination),
         metavar="DEGREES",
         help="Magnetic declination (variation), positive to the east: 3.5, 3.5E or 2W. It converts the directions that end in M, 87M, to true ones.",
@@ -492,16 +388,14 @@ def moving_air(wind: tuple[float, float] | None, declination_deg: float | None) 
     return Wind(speed_m_s, true_direction("wind from_deg", from_deg, declination_deg))
 
 
-@Parameter(name="*")
+@Parameter(name="*", group=air)
 @dataclass(frozen=True)
 class WindOptions:
     """The wind, and the declination of magnetic directions."""
 
-    wind: Annotated[
-        WindChoice,
-        Parameter(help=f"{WIND_HELP}; with places in degrees, clockwise from true north at the circle."),
-    ] = None
-    declination: DeclinationDegrees = None
+    wind: WindChoice = None
+    """Wind speed, metres per second, and the compass direction that the wind comes from; or as in weather reports, 250/15kn or 25015KT; with places in degrees, clockwise from true north at the circle."""
+    declination: Declination = None
 
     @property
     def moving_air(self) -> Wind:
@@ -527,46 +421,21 @@ Fit = Annotated[
 ]
 
 
-@Parameter(name="*")
+@Parameter(name="*", group=missions)
 @dataclass(frozen=True)
 class MissionOptions:
     """How a mission leads onto the circle, how closely a file follows the track, and what altitudes refer to."""
 
-    path: Annotated[
-        bool,
-        Parameter(
-            group=missions,
-            help="Write waypoints all along the path. Autopilots cut its turns and join later; they fly best without --path, with at most one waypoint.",
-        ),
-    ] = False
-    spacing: Annotated[
-        Metres,
-        Parameter(
-            group=missions,
-            help="Largest distance between points of the track; limited by --chord-error alone if absent. For a mission it implies --path.",
-        ),
-    ] = None
-    chord_error: Annotated[
-        Metres,
-        Parameter(
-            group=missions,
-            help="Largest distance by which straight lines between points of the track may cut a turn; 1 if absent.",
-        ),
-    ] = None
-    altitude_reference: Annotated[
-        Literal["msl", "home", "ground"],
-        Parameter(
-            group=missions,
-            help="Reference of --altitude: mean sea level, the home position, or the ground below (only in missions of ArduPilot, and in .kml).",
-        ),
-    ] = "msl"
-    home_altitude: Annotated[
-        Metres,
-        Parameter(
-            group=missions,
-            help="Altitude of the home position above mean sea level; needed for altitudes above home or ground, unless --orbit-from has a home.",
-        ),
-    ] = None
+    path: bool = False
+    """Write waypoints all along the path. Autopilots cut its turns and join later; they fly best without --path, with at most one waypoint."""
+    spacing: Metres = None
+    """Largest distance between points of the track; limited by --chord-error alone if absent. For a mission it implies --path."""
+    chord_error: Metres = None
+    """Largest distance by which straight lines between points of the track may cut a turn; 1 if absent."""
+    altitude_reference: Literal["msl", "home", "ground"] = "msl"
+    """Reference of --altitude: mean sea level, the home position, or the ground below (only in missions of ArduPilot, and in .kml)."""
+    home_altitude: Metres = None
+    """Altitude of the home position above mean sea level; needed for altitudes above home or ground, unless --orbit-from has a home."""
 
     def datum(self, site: Site | None = None) -> AltitudeDatum:
         """The reference of --altitude; the altitude of home may come from an existing mission."""
@@ -589,27 +458,19 @@ class MissionOptions:
         return CHORD_ERROR_M if self.chord_error is None else self.chord_error
 
 
-@Parameter(name="*")
+@Parameter(name="*", group=output)
 @dataclass(frozen=True)
 class PictureOptions:
     """The pictures of a command: their files, their size and their resolution."""
 
-    plot: Annotated[Files, Parameter(help="Draw a picture to a file: .png, .svg or .pdf; may be repeated.")] = ()
+    plot: Files = ()
+    """Draw a picture to a file: .png, .svg or .pdf; may be repeated."""
     size: Annotated[
-        tuple[float, float] | None,
-        Parameter(
-            group=output,
-            converter=several(millimetres, millimetres),
-            metavar="WIDTH HEIGHT",
-            help="Size of the picture, millimetres, or with a unit: 3.5in. A column of a journal is some 84 wide, a page 174; text stays at 7 points or more.",
-        ),
+        tuple[float, float] | None, Parameter(converter=several(millimetres, millimetres), metavar="WIDTH HEIGHT")
     ] = None
-    dpi: Annotated[
-        float | None,
-        Parameter(
-            group=output, metavar="N", help="Dots per inch of a .png; 150 if absent. Journals ask for 300 to 1200."
-        ),
-    ] = None
+    """Size of the picture, millimetres, or with a unit: 3.5in. A column of a journal is some 84 wide, a page 174; text stays at 7 points or more."""
+    dpi: Annotated[float | None, Parameter(metavar="N")] = None
+    """Dots per inch of a .png; 150 if absent. Journals ask for 300 to 1200."""
 
     @property
     def format(self) -> PictureFormat:
@@ -635,19 +496,13 @@ class PictureOptions:
         return False
 
 
-@Parameter(name="*")
+@Parameter(name="*", group=output)
 @dataclass(frozen=True)
 class MapPictureOptions(PictureOptions):
     """The pictures of a map, whose regions are pixels in every format."""
 
-    dpi: Annotated[
-        float | None,
-        Parameter(
-            group=output,
-            metavar="N",
-            help="Dots per inch of a .png, and of the regions in .svg and .pdf; 150 if absent.",
-        ),
-    ] = None
+    dpi: Annotated[float | None, Parameter(metavar="N")] = None
+    """Dots per inch of a .png, and of the regions in .svg and .pdf; 150 if absent."""
 
     @property
     def has_pixels(self) -> bool:

@@ -81,7 +81,7 @@ REFUSALS: dict[int | str, dict[str, Any]] = {
         HTTPStatus.REQUEST_TIMEOUT: "The body arrived too slowly.",
         HTTPStatus.REQUEST_ENTITY_TOO_LARGE: "The body is too large.",
         HTTPStatus.UNSUPPORTED_MEDIA_TYPE: "The content type of the body is not application/json.",
-        HTTPStatus.UNPROCESSABLE_ENTITY: "The request does not fit the schema, or the library refuses it; see the type.",
+        HTTPStatus.UNPROCESSABLE_ENTITY: "The request does not fit the schema, or the library refuses it; see `type`.",
         HTTPStatus.REQUEST_HEADER_FIELDS_TOO_LARGE: "The address or the headers are too large.",
         HTTPStatus.SERVICE_UNAVAILABLE: "Too many requests at once: try again later.",
     }.items()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Group, Parameter
@@ -17,28 +17,22 @@ from rich.text import Text
 
 import loiter
 from loiter.cli.fences import BatchFenceOptions
-from loiter.cli.numbers import check_declination, column_mapping, whole
+from loiter.cli.numbers import check_declination, column_mapping
 from loiter.cli.options import (
-    CIRCLE_DEGREES,
-    CIRCLE_METRES,
-    TOLERANCE_HELP,
-    TURN_HELP,
+    EAST_NORTH_RADIUS,
+    LAT_LON_RADIUS,
     VELOCITY,
-    WIND_HELP,
-    Airspeed,
-    Bank,
-    ClimbRate,
-    DeclinationDegrees,
-    DescentRate,
-    Json,
-    SlotBearing,
-    SlotTime,
+    Angle,
+    Bearing,
+    Columns,
+    Declination,
+    Metres,
+    Speed,
     Tolerance,
     TurnChoice,
-    TurnRadius,
     TurnRate,
+    Whole,
     WindChoice,
-    column_map,
     moving_air,
 )
 from loiter.cli.report import print_json
@@ -50,8 +44,83 @@ from loiter.planning.model import Orbit, Turn, circle_radius_m
 if TYPE_CHECKING:
     from loiter.batch import JobProgress, JobSummary
 
-shared = Group("Values that replace columns of the table", sort_key=1)
-work = Group("Work", sort_key=2)
+shared_group = Group("Values that replace columns of the table", sort_key=1)
+work_group = Group("Work", sort_key=2)
+
+
+@Parameter(name="*", group=shared_group)
+@dataclass(frozen=True)
+class SharedOptions:
+    """What is the same in all rows."""
+
+    orbit: Annotated[tuple[float, float, float] | None, EAST_NORTH_RADIUS] = None
+    """The circle: its centre and its radius, metres."""
+    orbit_lla: Annotated[tuple[float, float, float] | None, LAT_LON_RADIUS] = None
+    """Instead, where the table has latitudes and longitudes: its centre in WGS84 degrees, and its radius."""
+    turn: TurnChoice = None
+    """Direction in which the circle is held, seen from above: cw is clockwise, ccw counter-clockwise, either the faster one. If absent: either."""
+    airspeed: Speed = None
+    """True airspeed, metres per second, or with a unit: 35kn."""
+    bank: Angle = None
+    """Largest bank, degrees. One of --bank, --turn-radius and --turn-rate is needed, unless it is a column."""
+    turn_radius: Metres = None
+    """Smallest turn radius, metres."""
+    turn_rate: TurnRate = None
+    """Largest turn rate, degrees per second."""
+    wind: WindChoice = None
+    """Wind speed, metres per second, and the compass direction that the wind comes from; or as in weather reports, 250/15kn or 25015KT; still air if absent."""
+    declination: Declination = None
+    climb_rate: Speed = None
+    """Rate at which it climbs."""
+    descent_rate: Speed = None
+    """Rate at which it descends."""
+    orbit_velocity: Annotated[tuple[float, float] | None, VELOCITY] = None
+    """Velocity of the circle over the ground, metres per second; at rest if absent."""
+    slot: Bearing = None
+    """Enter the slot that is at this bearing from the centre, as in loiter plan; without it, or a column slot_phase_deg, entries are free."""
+    slot_at: Annotated[float | None, Parameter(metavar="SECONDS")] = None
+    """The time from the start at which the slot is at that bearing; 0 if absent."""
+    map_: Columns = None
+    """The column of the table that holds a quantity, if it has another name or unit: east_m='X_East [ft]'; may be repeated. Its unit is at the end of its name, or added in brackets."""
+
+    @property
+    def aircraft(self) -> dict[str, float]:
+        """The numbers of the aircraft that are given."""
+        given = {
+            "airspeed_m_s": self.airspeed,
+            "max_bank_deg": self.bank,
+            "min_turn_radius_m": self.turn_radius,
+            "max_turn_rate_deg_s": self.turn_rate,
+            "climb_rate_m_s": self.climb_rate,
+            "descent_rate_m_s": self.descent_rate,
+        }
+        return {name: value for name, value in given.items() if value is not None}
+
+    def circle(self) -> tuple[Orbit | None, LocalFrame | None]:
+        """The circle, and the local frame about its centre if it is in degrees."""
+        if self.orbit_lla is None:
+            return (None if self.orbit is None else Orbit(*self.orbit)), None
+        if self.orbit is not None:
+            raise InvalidArgument("orbit", "and --orbit-lla are given: one of them is needed")
+        lat, lon, radius = self.orbit_lla
+        return Orbit(0.0, 0.0, circle_radius_m("origin radius_m", radius)), LocalFrame(lat, lon)
+
+
+@Parameter(name="*", group=work_group)
+@dataclass(frozen=True)
+class WorkOptions:
+    """How the rows are solved."""
+
+    tolerance: Tolerance = 0.0
+    """A start that is beyond the circle, or beyond the last arc onto it, by up to this many metres counts as on it, as in loiter plan."""
+    workers: Whole = None
+    """Number of threads that solve; the number of cores if absent."""
+    scheduler: Annotated[str | None, Parameter(metavar="tcp://HOST:PORT")] = None
+    """Use the Dask cluster with this scheduler; its workers must see IN and OUT at the same places."""
+    rejects: Annotated[str | None, Parameter(metavar="FILE")] = None
+    """Write the malformed lines of CSV files to this CSV file, with file, line number, problem and text."""
+    json: bool = False
+    """Print one JSON object at the end: the numbers of rows, and of each status."""
 
 
 def batch(
@@ -70,124 +139,37 @@ def batch(
     ],
     /,
     *,
-    orbit: Annotated[
-        tuple[float, float, float] | None,
-        CIRCLE_METRES,
-        Parameter(group=shared, help="The circle: its centre and its radius, metres."),
-    ] = None,
-    orbit_lla: Annotated[
-        tuple[float, float, float] | None,
-        CIRCLE_DEGREES,
-        Parameter(
-            group=shared,
-            help="Instead, where the table has latitudes and longitudes: its centre in WGS84 degrees, and its radius.",
-        ),
-    ] = None,
-    turn: Annotated[
-        TurnChoice,
-        Parameter(group=shared, help=f"Direction in which the circle is held, {TURN_HELP} either."),
-    ] = None,
-    airspeed: Annotated[Airspeed, Parameter(group=shared)] = None,
-    bank: Annotated[
-        Bank,
-        Parameter(
-            group=shared,
-            help="Largest bank, degrees. One of --bank, --turn-radius and --turn-rate is needed, unless it is a column.",
-        ),
-    ] = None,
-    turn_radius: Annotated[TurnRadius, Parameter(group=shared)] = None,
-    turn_rate: Annotated[TurnRate, Parameter(group=shared)] = None,
-    wind: Annotated[WindChoice, Parameter(group=shared, help=f"{WIND_HELP}; still air if absent.")] = None,
-    declination: Annotated[DeclinationDegrees, Parameter(group=shared)] = None,
-    climb_rate: Annotated[ClimbRate, Parameter(group=shared)] = None,
-    descent_rate: Annotated[DescentRate, Parameter(group=shared)] = None,
-    orbit_velocity: Annotated[
-        tuple[float, float] | None,
-        VELOCITY,
-        Parameter(group=shared, help="Velocity of the circle over the ground, metres per second; at rest if absent."),
-    ] = None,
-    slot: Annotated[
-        SlotBearing,
-        Parameter(
-            group=shared,
-            help="Enter the slot that is at this bearing from the centre, as in loiter plan; without it, or a column slot_phase_deg, entries are free.",
-        ),
-    ] = None,
-    slot_at: Annotated[SlotTime, Parameter(group=shared)] = None,
-    map_: Annotated[list[str] | None, column_map(shared)] = None,
+    shared: SharedOptions = SharedOptions(),
     fence: BatchFenceOptions = BatchFenceOptions(),
-    tolerance: Annotated[Tolerance, Parameter(group=work, help=f"{TOLERANCE_HELP}, as in loiter plan.")] = 0.0,
-    workers: Annotated[
-        int | None,
-        Parameter(
-            group=work,
-            metavar="N",
-            converter=whole,
-            help="Number of threads that solve; the number of cores if absent.",
-        ),
-    ] = None,
-    scheduler: Annotated[
-        str | None,
-        Parameter(
-            group=work,
-            metavar="tcp://HOST:PORT",
-            help="Use the Dask cluster with this scheduler; its workers must see IN and OUT at the same places.",
-        ),
-    ] = None,
-    rejects: Annotated[
-        str | None,
-        Parameter(
-            group=work,
-            metavar="FILE",
-            help="Write the malformed lines of CSV files to this CSV file, with file, line number, problem and text.",
-        ),
-    ] = None,
-    json: Annotated[
-        Json, Parameter(group=work, help="Print one JSON object at the end: the numbers of rows, and of each status.")
-    ] = False,
+    work: WorkOptions = WorkOptions(),
 ) -> None:
     """Plan the fastest entry of every row of a table."""
-    check_declination(declination, *((wind or ())[-1:]))
-    limits = {"max_bank_deg": bank, "min_turn_radius_m": turn_radius, "max_turn_rate_deg_s": turn_rate}
-    rates = {"climb_rate_m_s": climb_rate, "descent_rate_m_s": descent_rate}
-    given = {name: value for name, value in {"airspeed_m_s": airspeed, **limits, **rates}.items() if value is not None}
-    circle, origin = _circle(orbit, orbit_lla)
+    check_declination(shared.declination, *((shared.wind or ())[-1:]))
+    circle, origin = shared.circle()
     with _named_interrupt(), shown_progress() as report:
         summary = loiter.batch.run(
             source,
             target,
             orbit=circle,
-            turn=None if turn is None else Turn(turn),
-            aircraft=given,
-            wind=moving_air(wind, declination),
-            orbit_velocity_m_s=orbit_velocity,
+            turn=None if shared.turn is None else Turn(shared.turn),
+            aircraft=shared.aircraft,
+            wind=moving_air(shared.wind, shared.declination),
+            orbit_velocity_m_s=shared.orbit_velocity,
             origin=origin,
-            columns=column_mapping(map_ or []),
-            tolerance_m=tolerance,
+            columns=column_mapping(shared.map_ or []),
+            tolerance_m=work.tolerance,
             fence=fence.read(None),
             margin_m=fence.margin,
-            slot=slot_of(slot, slot_at),
-            workers=workers,
-            scheduler=scheduler,
-            rejects=rejects,
+            slot=slot_of(shared.slot, shared.slot_at),
+            workers=work.workers,
+            scheduler=work.scheduler,
+            rejects=work.rejects,
             progress=report,
         )
-    if json:
+    if work.json:
         print_json(asdict(summary) | {"files": [target]})
     else:
-        sys.stderr.write(summary_lines(summary, rejects))
-
-
-def _circle(
-    orbit: tuple[float, float, float] | None, orbit_lla: tuple[float, float, float] | None
-) -> tuple[Orbit | None, LocalFrame | None]:
-    """The circle, and the local frame about its centre if it is in degrees."""
-    if orbit_lla is None:
-        return (None if orbit is None else Orbit(*orbit)), None
-    if orbit is not None:
-        raise InvalidArgument("orbit", "and --orbit-lla are given: one of them is needed")
-    lat, lon, radius = orbit_lla
-    return Orbit(0.0, 0.0, circle_radius_m("origin radius_m", radius)), LocalFrame(lat, lon)
+        sys.stderr.write(summary_lines(summary, work.rejects))
 
 
 @contextmanager

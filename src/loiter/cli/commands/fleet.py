@@ -15,15 +15,16 @@ from loiter.cli import report
 from loiter.cli.numbers import column_mapping, metres, one
 from loiter.cli.options import (
     AutopilotChoice,
+    Columns,
     Files,
     Fit,
     Json,
+    Metres,
     MissionOptions,
     OrbitOptions,
     PictureOptions,
     PlannedAircraftOptions,
     WindOptions,
-    column_map,
     output,
     scene,
 )
@@ -47,35 +48,32 @@ if TYPE_CHECKING:
 # What missions of a fleet are not.
 NO_SLOTS = "An autopilot flies a mission in its own time: it does not keep the slot."
 
-Separation = Annotated[
-    float,
-    Parameter(
-        group=scene,
-        converter=one(metres),
-        metavar="METRES",
-        help="Least horizontal distance between two aircraft, at all times; where no plan that was tried keeps it, those that come too close get different altitudes.",
-    ),
-]
-Reserve = Annotated[
-    float,
-    Parameter(
-        group=scene,
-        metavar="SHARE",
-        help="Take slots that aircraft still reach in time if they are late by up to this share of their time, as they are in gusts.",
-    ),
-]
-LayerHeight = Annotated[
-    float | None,
-    Parameter(
-        group=scene,
-        converter=one(metres),
-        metavar="METRES",
-        help="Vertical distance of altitude layers, upwards from --altitude; the separation if absent.",
-    ),
-]
+
+@Parameter(name="*", group=scene)
+@dataclass(frozen=True)
+class SpacingOptions:
+    """How far apart the aircraft stay."""
+
+    separation: Annotated[float, Parameter(converter=one(metres), metavar="METRES")] = 0.0
+    """Least horizontal distance between two aircraft, at all times; where no plan that was tried keeps it, those that come too close get different altitudes."""
+    reserve: Annotated[float, Parameter(metavar="SHARE")] = 0.0
+    """Take slots that aircraft still reach in time if they are late by up to this share of their time, as they are in gusts."""
+    layer_height: Metres = None
+    """Vertical distance of altitude layers, upwards from --altitude; the separation if absent."""
+
+    @property
+    def layer_height_m(self) -> float:
+        """The distance of altitude layers."""
+        height = self.layer_height
+        return self.separation if height is None else positive("layer_height_m", height, "metres")
+
+
 Mapped = Annotated[
-    list[str] | None,
-    column_map(scene),
+    Columns,
+    Parameter(
+        group=scene,
+        help="The column of the table that holds a quantity, if it has another name or unit: east_m='X_East [ft]'; may be repeated. Its unit is at the end of its name, or added in brackets.",
+    ),
 ]
 Animate = Annotated[
     Path | None,
@@ -113,9 +111,7 @@ def fleet(
     uav: PlannedAircraftOptions = PlannedAircraftOptions(),
     air: WindOptions = WindOptions(),
     fit: Fit = False,
-    separation: Separation = 0.0,
-    reserve: Reserve = 0.0,
-    layer_height: LayerHeight = None,
+    spacing: SpacingOptions = SpacingOptions(),
     json: Json = False,
     pictures: PictureOptions = PictureOptions(),
     animate: Animate = None,
@@ -138,8 +134,10 @@ def fleet(
     rows = read_fleet(table, column_mapping(map_ or []))
     with fit_proposed():
         poses = _poses(rows, read, table)
-        plan = plan_fleet(poses, read.orbit, read.aircraft, read.wind, separation_m=separation, reserve=reserve)
-    shown = ShownFleet(plan, tuple(row.name for row in rows.rows), _layer_height(layer_height, separation), separation)
+        plan = plan_fleet(
+            poses, read.orbit, read.aircraft, read.wind, separation_m=spacing.separation, reserve=spacing.reserve
+        )
+    shown = ShownFleet(plan, tuple(row.name for row in rows.rows), spacing.layer_height_m, spacing.separation)
     contents = _contents(shown, save, read, uav, waypoints, autopilot, circle.site)
     for path, content in contents:
         write_content("save", path, content)
@@ -230,10 +228,6 @@ class ShownFleet(NamedTuple):
                 cells += [f"{distance_m:.1f} m", self.names[other], f"{time_s:.1f} s"]
             rows.add_row(*cells, f"{plan.layers[i]}")
         return rows
-
-
-def _layer_height(layer_height: float | None, separation: float) -> float:
-    return separation if layer_height is None else positive("layer_height_m", layer_height, "metres")
 
 
 def _poses(rows: FleetTable, read: CircleRead, table: Path) -> list[Pose]:

@@ -21,15 +21,15 @@ from loiter.cli.fences import CheckedFence, FlownFenceOptions, check_fence
 from loiter.cli.numbers import whole
 from loiter.cli.options import (
     AircraftOptions,
+    BandedSlotOptions,
     Files,
     Json,
     OrbitOptions,
     PictureOptions,
-    SlotBand,
-    SlotBearing,
-    SlotTime,
     StartOptions,
+    Whole,
     WindOptions,
+    scene,
 )
 from loiter.cli.output import Output
 from loiter.cli.scenes import place_scene, read_slot
@@ -68,65 +68,37 @@ Save = Annotated[
 ]
 
 
-@Parameter(name="*")
+Replay = Annotated[
+    Path | None,
+    Parameter(
+        group=simulation,
+        metavar="LOG",
+        help="Instead of a simulation: the log of loiter guide, .csv or .parquet; --plot draws it.",
+    ),
+]
+
+
+@Parameter(name="*", group=simulation)
 @dataclass(frozen=True)
 class SimulationOptions:
     """The simulator, the laws and the number of flights."""
 
-    sim: Annotated[
-        SimulatorName,
-        Parameter(
-            group=simulation,
-            help="kinematic: the exact vehicle of the theory. point: with roll response, gusts, noise and delay. varied: with --runs, another aircraft in each, drawn at random, of which the law knows only airspeed and bank limit. jsbsim: six degrees of freedom.",
-        ),
-    ] = "point"
-    law: Annotated[
-        LawName,
-        Parameter(
-            group=simulation,
-            help="The guidance law. optimal: the fastest entry, planned anew from each measured state. l1: that of ArduPlane. vector-field: a field of headings that leads onto the circle. tangent: Dubins' path to the nearest tangent point.",
-        ),
-    ] = "optimal"
-    compare: Annotated[bool, Parameter(group=simulation, help="Fly all laws from the same start, in the same air.")] = (
-        False
-    )
-    airframe: Annotated[
-        Literal["aerosonde", "j3cub"] | None,
-        Parameter(
-            group=simulation,
-            help="The airframe for jsbsim, with its own airspeed and bank limit; the Aerosonde if absent.",
-        ),
-    ] = None
-    gust: Annotated[
-        float | None,
-        Parameter(
-            group=simulation,
-            metavar="SHARE",
-            help="Dryden gusts: their standard deviation over the airspeed, 0.05 if absent. Settled means within 5 % of the radius and 5 degrees; from a share of 0.1 on, 10 % and 10 degrees.",
-        ),
-    ] = None
-    runs: Annotated[
-        int | None,
-        Parameter(
-            group=simulation,
-            metavar="N",
-            converter=whole,
-            help="Fly from N random starts instead of --pose: within 6 radii of circles with 1.2 to 4 times the smallest radius that can be held.",
-        ),
-    ] = None
-    seed: Annotated[
-        int,
-        Parameter(
-            group=simulation,
-            metavar="N",
-            converter=whole,
-            help="Seed of random starts, gusts and noise: the same seed gives the same flights.",
-        ),
-    ] = 0
-    workers: Annotated[
-        int | None,
-        Parameter(group=simulation, metavar="N", converter=whole, help="Processes; the number of cores if absent."),
-    ] = None
+    sim: SimulatorName = "point"
+    """kinematic: the exact vehicle of the theory. point: with roll response, gusts, noise and delay. varied: with --runs, another aircraft in each, drawn at random, of which the law knows only airspeed and bank limit. jsbsim: six degrees of freedom."""
+    law: LawName = "optimal"
+    """The guidance law. optimal: the fastest entry, planned anew from each measured state. l1: that of ArduPlane. vector-field: a field of headings that leads onto the circle. tangent: Dubins' path to the nearest tangent point."""
+    compare: bool = False
+    """Fly all laws from the same start, in the same air."""
+    airframe: Literal["aerosonde", "j3cub"] | None = None
+    """The airframe for jsbsim, with its own airspeed and bank limit; the Aerosonde if absent."""
+    gust: Annotated[float | None, Parameter(metavar="SHARE")] = None
+    """Dryden gusts: their standard deviation over the airspeed, 0.05 if absent. Settled means within 5 % of the radius and 5 degrees; from a share of 0.1 on, 10 % and 10 degrees."""
+    runs: Whole = None
+    """Fly from N random starts instead of --pose: within 6 radii of circles with 1.2 to 4 times the smallest radius that can be held."""
+    seed: Annotated[int, Parameter(metavar="N", converter=whole)] = 0
+    """Seed of random starts, gusts and noise: the same seed gives the same flights."""
+    workers: Whole = None
+    """Processes; the number of cores if absent."""
 
     @property
     def laws(self) -> list[str]:
@@ -205,14 +177,10 @@ class SimulationOptions:
         return AIRFRAMES[self.airframe or AIRFRAME]
 
 
-@Parameter(name="*")
+@Parameter(name="*", group=scene)
 @dataclass(frozen=True)
-class SlotOptions:
+class FlownSlotOptions(BandedSlotOptions):
     """A slot that the law enters and keeps."""
-
-    slot: SlotBearing = None
-    slot_at: SlotTime = None
-    slot_band: SlotBand = None
 
     def slot_for(self, simulated: SimulationOptions) -> Slot | None:
         """The slot; None without one. Raises `InvalidArgument` where the options do not fit together."""
@@ -253,16 +221,9 @@ class SlotOptions:
 
 def fly(
     *,
-    replay: Annotated[
-        Path | None,
-        Parameter(
-            group=simulation,
-            metavar="LOG",
-            help="Instead of a simulation: the log of loiter guide, .csv or .parquet; --plot draws it.",
-        ),
-    ] = None,
+    replay: Replay = None,
     simulated: SimulationOptions = SimulationOptions(),
-    slotted: SlotOptions = SlotOptions(),
+    slotted: FlownSlotOptions = FlownSlotOptions(),
     start: StartOptions = StartOptions(),
     circle: OrbitOptions = OrbitOptions(),
     uav: AircraftOptions = AircraftOptions(),
@@ -334,7 +295,7 @@ def _fly_once(
     trial: Trial,
     simulated: SimulationOptions,
     wanted: Output,
-    slotted: SlotOptions,
+    slotted: FlownSlotOptions,
     aimed: Slot | None,
     fenced: CheckedFence | None,
 ) -> None:

@@ -7,7 +7,7 @@ import signal
 import sys
 from collections.abc import Callable
 from contextlib import closing, suppress
-from pathlib import Path
+from dataclasses import dataclass
 from queue import Empty, Queue
 from threading import Thread
 from typing import Annotated, Any
@@ -16,14 +16,16 @@ from cyclopts import Parameter
 
 import loiter
 from loiter.cli import report, vehicles
-from loiter.cli.commands.mavlink import Connect, System, Timeout, connection
+from loiter.cli.commands.mavlink import Connect, LinkOptions, connection
 from loiter.cli.fences import GuidedFenceOptions
-from loiter.cli.numbers import metres, one
 from loiter.cli.options import (
+    BandedSlotOptions,
+    File,
     GuidedOrbitOptions,
     GuidedVehicleOptions,
-    SlotBand,
-    SlotBearing,
+    Json,
+    Metres,
+    Seconds,
     WindOptions,
     output,
     scene,
@@ -33,87 +35,75 @@ from loiter.cli.scenes import read_slot
 from loiter.cli.status import abandon_output
 from loiter.errors import InvalidArgument, LinkFailed
 from loiter.guidance.entry.slot_entry import BAND
-from loiter.mavlink.connection.link import TIMEOUT_S
+
+
+@Parameter(name="*", group=connection)
+@dataclass(frozen=True)
+class GuideOptions(LinkOptions):
+    """How the vehicle is guided."""
+
+    every: Seconds = 1.0
+    """Time between lines."""
+    keep: bool = False
+    """Fly the circle until Ctrl-C, instead of handing it over once it is held steadily."""
+    dry_run: bool = False
+    """Command nothing, and show what would be commanded. Only heartbeats and requests for telemetry and parameters are sent."""
+    yes: bool = False
+    """Begin without a question after the summary: for scripts."""
+    accept_fly_away: bool = False
+    """Guide PX4 although it does not stay near if this program or the link dies: COM_OBL_RC_ACT is neither hold nor return."""
+    resume: bool = False
+    """After a lost link begin anew if the vehicle is heard within a minute, still on its way to the circle: ArduPlane only."""
+
+
+@Parameter(name="*", group=scene)
+@dataclass(frozen=True)
+class GuidedSlotOptions(BandedSlotOptions):
+    """A slot by the clock, and the distance of several vehicles in theirs."""
+
+    slot_at: Annotated[float | None, Parameter(metavar="UNIX")] = None
+    """The Unix time, seconds, at which the slot is at that bearing, by the clock of this computer: date +%s prints it. Needed with --slot."""
+    separation: Metres = None
+    """With --fleet: least horizontal distance between two vehicles. A fleet whose plan does not keep it is refused; in flight a line says where it is not kept."""
+
+    @property
+    def arguments(self) -> dict[str, Any]:
+        """The slot as arguments of `loiter.mavlink.guide`; raises `InvalidArgument` where it is not complete."""
+        if self.slot is None:
+            for name, value in (("slot_at_s", self.slot_at), ("slot_band", self.slot_band)):
+                if value is not None:
+                    raise InvalidArgument(name, "has no effect without --slot")
+            return {}
+        if self.slot_at is None:
+            raise InvalidArgument(
+                "slot_at_s", "is needed with --slot: the Unix time at which the slot is at that bearing"
+            )
+        slot = {"slot": read_slot(self.slot, self.slot_at)}
+        return slot | ({} if self.slot_band is None else {"slot_band": self.slot_band})
 
 
 def guide(
     *,
     connect: Connect | None = None,
     fleet: Annotated[
-        Path | None,
+        File,
         Parameter(
             group=connection,
-            metavar="FILE",
             help="Instead of --connect: several vehicles at once, each into a slot of the circle. A CSV file with a row for each: connect, and optionally name and system.",
         ),
     ] = None,
-    system: System = None,
-    timeout: Timeout = TIMEOUT_S,
-    every: Annotated[float, Parameter(group=connection, metavar="SECONDS", help="Time between lines.")] = 1.0,
-    keep: Annotated[
-        bool,
-        Parameter(
-            group=connection, help="Fly the circle until Ctrl-C, instead of handing it over once it is held steadily."
-        ),
-    ] = False,
-    dry_run: Annotated[
-        bool,
-        Parameter(
-            group=connection,
-            help="Command nothing, and show what would be commanded. Only heartbeats and requests for telemetry and parameters are sent.",
-        ),
-    ] = False,
-    yes: Annotated[
-        bool,
-        Parameter(group=connection, help="Begin without a question after the summary: for scripts."),
-    ] = False,
-    accept_fly_away: Annotated[
-        bool,
-        Parameter(
-            group=connection,
-            help="Guide PX4 although it does not stay near if this program or the link dies: COM_OBL_RC_ACT is neither hold nor return.",
-        ),
-    ] = False,
-    resume: Annotated[
-        bool,
-        Parameter(
-            group=connection,
-            help="After a lost link begin anew if the vehicle is heard within a minute, still on its way to the circle: ArduPlane only.",
-        ),
-    ] = False,
+    how: GuideOptions = GuideOptions(),
     circle: GuidedOrbitOptions = GuidedOrbitOptions(),
     uav: GuidedVehicleOptions = GuidedVehicleOptions(),
     air: WindOptions = WindOptions(),
     fence: GuidedFenceOptions = GuidedFenceOptions(),
-    slot: SlotBearing = None,
-    slot_at: Annotated[
-        float | None,
-        Parameter(
-            group=scene,
-            metavar="UNIX",
-            help="The Unix time, seconds, at which the slot is at that bearing, by the clock of this computer: date +%s prints it. Needed with --slot.",
-        ),
-    ] = None,
-    slot_band: SlotBand = None,
-    separation: Annotated[
-        float | None,
-        Parameter(
-            group=scene,
-            converter=one(metres),
-            metavar="METRES",
-            help="With --fleet: least horizontal distance between two vehicles. A fleet whose plan does not keep it is refused; in flight a line says where it is not kept.",
-        ),
-    ] = None,
+    slotted: GuidedSlotOptions = GuidedSlotOptions(),
     log: Annotated[
-        Path | None,
-        Parameter(
-            group=output, metavar="FILE", help="Write every step to a .csv or .parquet; loiter fly --replay plots it."
-        ),
+        File, Parameter(group=output, help="Write every step to a .csv or .parquet; loiter fly --replay plots it.")
     ] = None,
     json: Annotated[
-        bool,
+        Json,
         Parameter(
-            group=output,
             help="Print a JSON object a line instead of text. With --fleet: one object at the end, and text on standard error.",
         ),
     ] = False,
@@ -125,11 +115,17 @@ def guide(
     orbit, frame = circle.circle(None)
     assert frame is not None  # the circle is in degrees
     wind, altitude_m = None if air.wind is None else air.moving_air, written_altitude(uav.altitude)
-    if not (yes or dry_run or sys.stdin.isatty()):
+    if not (how.yes or how.dry_run or sys.stdin.isatty()):
         raise InvalidArgument("yes", "is needed where nobody can answer: standard input is not a terminal")
-    alone = {"connection": connect, "system": system, "slot": slot, "slot_at_s": slot_at, "log": log}
-    alone |= {"fence": fence.fence, "keep": keep or None}
-    for name, value in ({"separation_m": separation} if fleet is None else alone).items():
+    alone = {
+        "connection": connect,
+        "system": how.system,
+        "slot": slotted.slot,
+        "slot_at_s": slotted.slot_at,
+        "log": log,
+    }
+    alone |= {"fence": fence.fence, "keep": how.keep or None}
+    for name, value in ({"separation_m": slotted.separation} if fleet is None else alone).items():
         if value is not None:
             raise InvalidArgument(name, f"has no effect {'without' if fleet is None else 'with'} --fleet")
     if fleet is not None:
@@ -144,12 +140,12 @@ def guide(
             max_bank_deg=uav.bank,
             wind=wind,
             altitude_m=altitude_m,
-            accept_fly_away=accept_fly_away,
-            slot_band=BAND if slot_band is None else slot_band,
+            accept_fly_away=how.accept_fly_away,
+            slot_band=BAND if slotted.slot_band is None else slotted.slot_band,
         )
-        question = None if yes or dry_run else _question()
-        request = FleetRequest(each, timeout, resume, 0.0 if separation is None else separation)
-        return guide_fleet(fleet, request, FleetOutput(question, dry_run, every, json))
+        question = None if how.yes or how.dry_run else _question()
+        request = FleetRequest(each, how.timeout, how.resume, 0.0 if slotted.separation is None else slotted.separation)
+        return guide_fleet(fleet, request, FleetOutput(question, how.dry_run, how.every, json))
     if connect is None:
         raise InvalidArgument("connection", "is needed, or --fleet for several vehicles")
     reports = loiter.mavlink.guide(
@@ -159,19 +155,19 @@ def guide(
         airspeed_m_s=uav.airspeed,
         max_bank_deg=uav.bank,
         wind=wind,
-        system=system,
-        period_s=every,
-        timeout_s=timeout,
+        system=how.system,
+        period_s=how.every,
+        timeout_s=how.timeout,
         altitude_m=altitude_m,
-        keep=keep,
-        dry_run=dry_run,
-        accept_fly_away=accept_fly_away,
-        confirm=None if yes else _question(),
-        resume=resume,
+        keep=how.keep,
+        dry_run=how.dry_run,
+        accept_fly_away=how.accept_fly_away,
+        confirm=None if how.yes else _question(),
+        resume=how.resume,
         log=log,
         fence=fence.of_flight(),
         margin_m=fence.margin,
-        **_slot_arguments(slot, slot_at, slot_band),
+        **slotted.arguments,
     )
     with vehicles.ending_signals(signal.default_int_handler), closing(reports):
         try:
@@ -191,18 +187,6 @@ def guide(
             # It came between two reports: the vehicle is commanded back, and the interrupt says so.
             reports.throw(KeyboardInterrupt)
     return None
-
-
-def _slot_arguments(bearing_deg: float | None, at_s: float | None, band: float | None) -> dict[str, Any]:
-    """The slot of the options as arguments of `guide`; raises `InvalidArgument` where they do not fit together."""
-    if bearing_deg is None:
-        for name, value in (("slot_at_s", at_s), ("slot_band", band)):
-            if value is not None:
-                raise InvalidArgument(name, "has no effect without --slot")
-        return {}
-    if at_s is None:
-        raise InvalidArgument("slot_at_s", "is needed with --slot: the Unix time at which the slot is at that bearing")
-    return {"slot": read_slot(bearing_deg, at_s)} | ({} if band is None else {"slot_band": band})
 
 
 def _question() -> Callable[[], bool]:

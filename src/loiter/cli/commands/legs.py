@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Annotated, NamedTuple
 
 from cyclopts import Group, Parameter
@@ -10,28 +10,23 @@ from rich.console import RenderableType
 
 from loiter.cli import report
 from loiter.cli.fences import LegFenceOptions, check_fence
-from loiter.cli.numbers import (
-    altitude,
-    angle,
-    check_declination,
-    direction,
-    latitude,
-    longitude,
-    metres,
-    one,
-    several,
-    turn_name,
-)
+from loiter.cli.numbers import altitude, angle, check_declination, metres, one, turn_name
 from loiter.cli.options import (
+    EAST_NORTH,
+    EAST_NORTH_HEADING,
+    LAT_LON,
+    LAT_LON_HEADING,
     AircraftOptions,
+    Altitude,
     AutopilotChoice,
-    ClimbRate,
-    DescentRate,
     Files,
     Fit,
     Json,
+    Metres,
     OrbitOptions,
     PictureOptions,
+    Seconds,
+    Speed,
     StartOptions,
     WindOptions,
     way_out,
@@ -46,7 +41,6 @@ from loiter.geo import LocalFrame, density_ratio
 from loiter.geo.atmosphere import LAPSE_K_PER_M
 from loiter.io.legs import check_leg_format, leg_content
 from loiter.io.missions.items import AUTOPILOTS, AutopilotName
-from loiter.io.missions.parameters import Preset
 from loiter.io.missions.site import Site
 from loiter.planning.landing import Landing, LandingPlan, Runway, plan_landing
 from loiter.planning.leg import Leg, LegPlan, plan_leg
@@ -61,100 +55,97 @@ Save = Annotated[
     ),
 ]
 
-# The options of `loiter leg`, in the order of its help.
-ExitTo = Annotated[
-    tuple[float, float] | None,
-    Parameter(
-        group=way_out,
-        converter=several(metres, metres),
-        metavar="EAST NORTH",
-        help="The point that the aircraft flies to from the circle, on a tangent: metres.",
-    ),
-]
-ExitToDegrees = Annotated[
-    tuple[float, float] | None,
-    Parameter(
-        group=way_out,
-        converter=several(latitude, longitude),
-        metavar="LAT LON",
-        help="The same in WGS84 degrees, with --pose-lla and --orbit-lla.",
-    ),
-]
-Hold = Annotated[
-    float, Parameter(group=way_out, metavar="SECONDS", help="Least time on the circle, from joining to the exit.")
-]
-Turns = Annotated[float, Parameter(group=way_out, metavar="N", help="Least number of turns on the circle.")]
-ToAltitude = Annotated[
-    float | None,
-    Parameter(
-        group=way_out,
-        converter=one(altitude),
-        metavar="METRES",
-        help="Altitude at the exit; --altitude is that at the start. The climb or descent begins at once.",
-    ),
-]
-
 runway_group = Group("The runway and the circle beside its final approach", sort_key=1)
 
-# The options of `loiter land`, in the order of its help.
-Threshold = Annotated[
-    tuple[float, float, float] | None,
-    Parameter(
-        group=runway_group,
-        converter=several(metres, metres, direction),
-        metavar="EAST NORTH HEADING",
-        help="The threshold, metres, and the direction of landing in degrees clockwise from north.",
-    ),
-]
-ThresholdDegrees = Annotated[
-    tuple[float, float, float] | None,
-    Parameter(
-        group=runway_group,
-        converter=several(latitude, longitude, direction),
-        metavar="LAT LON HEADING",
-        help="The same with WGS84 degrees and true north, with --pose-lla.",
-    ),
-]
-Elevation = Annotated[
-    float, Parameter(group=runway_group, converter=one(altitude), metavar="METRES", help="Altitude of the threshold.")
-]
-GlideSlope = Annotated[
-    float,
-    Parameter(group=runway_group, converter=one(angle), metavar="DEGREES", help="Glide slope, over the ground."),
-]
-ThresholdHeight = Annotated[
-    float,
-    Parameter(
-        group=runway_group, converter=one(metres), metavar="METRES", help="Height of the glide slope at the threshold."
-    ),
-]
-Radius = Annotated[
-    float | None,
-    Parameter(
-        group=runway_group,
-        converter=one(metres),
-        metavar="METRES",
-        help="Radius of the circle; that of --params if absent.",
-    ),
-]
-Final = Annotated[
-    float,
-    Parameter(
-        group=runway_group,
-        converter=one(metres),
-        metavar="METRES",
-        help="Least length of the final approach, from the circle to the threshold.",
-    ),
-]
-LandingTurn = Annotated[
-    TurnName,
-    Parameter(
-        group=runway_group,
-        converter=turn_name,
-        help="Direction of flight around the circle: cw lies to the right of the approach, ccw to the left; either: "
-        "the faster one.",
-    ),
-]
+
+@Parameter(name="*", group=way_out)
+@dataclass(frozen=True)
+class RateOptions:
+    """The rates of the aircraft."""
+
+    climb_rate: Speed = None
+    """Rate at which it climbs."""
+    descent_rate: Speed = None
+    """Rate at which it descends."""
+
+    def given_to(self, uav: Aircraft) -> Aircraft:
+        """An aircraft with these rates."""
+        return replace(uav, climb_rate_m_s=self.climb_rate, descent_rate_m_s=self.descent_rate)
+
+
+@Parameter(name="*", group=way_out)
+@dataclass(frozen=True)
+class WayOutOptions:
+    """The point that the aircraft flies to from the circle, and what it waits for there."""
+
+    exit_to: Annotated[tuple[float, float] | None, EAST_NORTH] = None
+    """The point that the aircraft flies to from the circle, on a tangent: metres."""
+    exit_to_lla: Annotated[tuple[float, float] | None, LAT_LON] = None
+    """The same in WGS84 degrees, with --pose-lla and --orbit-lla."""
+    hold: Seconds = 0.0
+    """Least time on the circle, from joining to the exit."""
+    turns: Annotated[float, Parameter(metavar="N")] = 0.0
+    """Least number of turns on the circle."""
+    to_altitude: Altitude = None
+    """Altitude at the exit; --altitude is that at the start. The climb or descent begins at once."""
+
+    def place(self, frame: LocalFrame | None) -> tuple[float, float]:
+        """The point flown to, metres; raises `InvalidArgument` unless it is given once, in the units of the circle."""
+        if (self.exit_to is None) == (self.exit_to_lla is None):
+            raise InvalidArgument("exit_to", "or --exit-to-lla is needed, and not both")
+        if (self.exit_to_lla is None) != (frame is None):
+            raise InvalidArgument("exit_to", "has the units of the circle: --exit-to-lla goes with --orbit-lla")
+        if self.exit_to_lla is None or frame is None:
+            assert self.exit_to is not None  # one of them is given
+            return self.exit_to
+        east, north = frame.to_local(*self.exit_to_lla)
+        return float(east), float(north)
+
+
+@Parameter(name="*", group=runway_group)
+@dataclass(frozen=True, kw_only=True)
+class RunwayOptions:
+    """The runway, and the circle beside its final approach."""
+
+    runway: Annotated[tuple[float, float, float] | None, EAST_NORTH_HEADING] = None
+    """The threshold, metres, and the direction of landing in degrees clockwise from north."""
+    runway_lla: Annotated[tuple[float, float, float] | None, LAT_LON_HEADING] = None
+    """The same with WGS84 degrees and true north, with --pose-lla."""
+    elevation: Annotated[float, Parameter(converter=one(altitude), metavar="METRES")]
+    """Altitude of the threshold."""
+    glide_slope: Annotated[float, Parameter(converter=one(angle), metavar="DEGREES")] = 3.0
+    """Glide slope, over the ground."""
+    threshold_height: Annotated[float, Parameter(converter=one(metres), metavar="METRES")] = 15.0
+    """Height of the glide slope at the threshold."""
+    radius: Metres = None
+    """Radius of the circle; that of --params if absent."""
+    final: Annotated[float, Parameter(converter=one(metres), metavar="METRES")]
+    """Least length of the final approach, from the circle to the threshold."""
+    turn: Annotated[TurnName, Parameter(converter=turn_name)] = "either"
+    """Direction of flight around the circle: cw lies to the right of the approach, ccw to the left; either: the faster one."""
+
+    def read(self, start: StartOptions, air: WindOptions) -> tuple[Runway, LocalFrame | None]:
+        """The runway, and the local frame about its threshold if that is in degrees."""
+        given = (air.wind, start.pose, start.pose_lla, self.runway, self.runway_lla)
+        check_declination(air.declination, *(values[-1] for values in given if values))
+        if (self.runway is None) == (self.runway_lla is None):
+            raise InvalidArgument("runway", "or --runway-lla is needed, and not both")
+        if (start.pose is None) == (start.pose_lla is None):
+            raise InvalidArgument("pose", "or --pose-lla is needed, and not both")
+        if (start.pose_lla is None) != (self.runway_lla is None):
+            raise InvalidArgument("pose_lla", "and --runway-lla go together: places in degrees, or both in metres")
+        east_m, north_m, frame = 0.0, 0.0, None
+        if self.runway_lla is None:
+            assert self.runway is not None  # one of them is given
+            east_m, north_m, heading_deg = self.runway
+        else:
+            lat, lon, heading_deg = self.runway_lla
+            with argument_names(
+                **{"origin latitude_deg": "threshold latitude_deg", "origin longitude_deg": "threshold longitude_deg"}
+            ):
+                frame = LocalFrame(lat, lon)
+        true_deg = air.true_heading("runway heading_deg", heading_deg)
+        return Runway(east_m, north_m, true_deg, self.elevation, self.glide_slope, self.threshold_height), frame
 
 
 def leg(
@@ -165,63 +156,35 @@ def leg(
     air: WindOptions = WindOptions(),
     fence: LegFenceOptions = LegFenceOptions(),
     fit: Fit = False,
-    exit_to: ExitTo = None,
-    exit_to_lla: ExitToDegrees = None,
-    hold: Hold = 0.0,
-    turns: Turns = 0.0,
-    to_altitude: ToAltitude = None,
-    climb_rate: ClimbRate = None,
-    descent_rate: DescentRate = None,
+    way: WayOutOptions = WayOutOptions(),
+    rates: RateOptions = RateOptions(),
     save: Save = (),
     autopilot: AutopilotChoice = "ardupilot",
     json: Json = False,
     pictures: PictureOptions = PictureOptions(),
 ) -> int:
     """Plan the fastest way in, round and out of a holding circle towards a point."""
-    airspeeds = leg_airspeeds(uav, to_altitude, "to_altitude_m")
+    airspeeds = leg_airspeeds(uav, way.to_altitude, "to_altitude_m")
     (problem, frame), remark = read_options(start, circle, airspeeds.highest, air, fit=fit)
     output = Output(json, pictures, save)
     output.check(check_leg_format)
-    if to_altitude is not None and uav.altitude is None:
+    if way.to_altitude is not None and uav.altitude is None:
         raise InvalidArgument("altitude_m", "is needed with --to-altitude: it is the altitude at the start")
-    start_at, point = replace(problem.pose, altitude_m=uav.altitude), exit_place(exit_to, exit_to_lla, frame)
+    start_at, point = replace(problem.pose, altitude_m=uav.altitude), way.place(frame)
     with argument_names(altitude_m="to_altitude_m"):
-        asked = Leg(start_at, problem.orbit, point, hold_s=hold, turns=turns, altitude_m=to_altitude)
+        asked = Leg(start_at, problem.orbit, point, hold_s=way.hold, turns=way.turns, altitude_m=way.to_altitude)
     with fit_proposed():
         problem.in_wind()  # raises where the circle cannot be held in the thinnest air of the leg
-        plan = plan_leg(asked, with_rates(airspeeds.planned, climb_rate, descent_rate), problem.wind)
+        plan = plan_leg(asked, rates.given_to(airspeeds.planned), problem.wind)
     return show(plan, frame, output, autopilot, fence, circle.site, remark, airspeeds.remark)
-
-
-def exit_place(
-    exit_to: tuple[float, float] | None, exit_to_lla: tuple[float, float] | None, frame: LocalFrame | None
-) -> tuple[float, float]:
-    """The point flown to, metres; raises `InvalidArgument` unless it is given once, in the units of the circle."""
-    if (exit_to is None) == (exit_to_lla is None):
-        raise InvalidArgument("exit_to", "or --exit-to-lla is needed, and not both")
-    if (exit_to_lla is None) != (frame is None):
-        raise InvalidArgument("exit_to", "has the units of the circle: --exit-to-lla goes with --orbit-lla")
-    if exit_to_lla is None or frame is None:
-        assert exit_to is not None  # one of them is given
-        return exit_to
-    east, north = frame.to_local(*exit_to_lla)
-    return float(east), float(north)
 
 
 def land(
     *,
     start: StartOptions = StartOptions(),
-    runway: Threshold = None,
-    runway_lla: ThresholdDegrees = None,
-    elevation: Elevation,
-    glide_slope: GlideSlope = 3.0,
-    threshold_height: ThresholdHeight = 15.0,
-    radius: Radius = None,
-    final: Final,
-    turn: LandingTurn = "either",
+    runway: RunwayOptions,
     uav: AircraftOptions = AircraftOptions(),
-    climb_rate: ClimbRate = None,
-    descent_rate: DescentRate = None,
+    rates: RateOptions = RateOptions(),
     air: WindOptions = WindOptions(),
     fence: LegFenceOptions = LegFenceOptions(),
     save: Save = (),
@@ -234,56 +197,18 @@ def land(
     output.check(check_leg_format)
     if uav.altitude is None:
         raise InvalidArgument("altitude_m", "is needed: it is the altitude at the start")
-    (east_m, north_m, heading_deg), frame = _threshold(start, runway, runway_lla, air)
-    target = Runway(
-        east_m,
-        north_m,
-        air.true_heading("runway heading_deg", heading_deg),
-        elevation,
-        glide_slope,
-        threshold_height,
-    )
+    target, frame = runway.read(start, air)
     begun = replace(start_pose(start, air, frame), altitude_m=written_altitude(uav.altitude))
-    landing = Landing(begun, target, _radius_m(radius, uav.preset), final, Turn(turn))
-    airspeeds = leg_airspeeds(uav, elevation, "runway altitude_m")
-    plan = plan_landing(landing, with_rates(airspeeds.planned, climb_rate, descent_rate), air.moving_air)
+    radius_m = uav.preset.loiter_radius_m if runway.radius is None and uav.preset is not None else runway.radius
+    if radius_m is None:
+        raise InvalidArgument("radius_m", "is needed, or --params with the radius of loiters")
+    landing = Landing(begun, target, radius_m, runway.final, Turn(runway.turn))
+    airspeeds = leg_airspeeds(uav, runway.elevation, "runway altitude_m")
+    plan = plan_landing(landing, rates.given_to(airspeeds.planned), air.moving_air)
     # Raises where the circle cannot be held in the thinnest air of the landing.
     Problem(begun, plan.leg.orbit, airspeeds.highest.aircraft, air.moving_air).in_wind()
     remarks = airspeeds.highest.remark, airspeeds.remark
     return show(plan, frame, output, autopilot, fence, None, *remarks)
-
-
-def _threshold(
-    start: StartOptions,
-    runway: tuple[float, float, float] | None,
-    runway_lla: tuple[float, float, float] | None,
-    air: WindOptions,
-) -> tuple[tuple[float, float, float], LocalFrame | None]:
-    """The threshold in metres with the heading, and the local frame about it if it is in degrees."""
-    given = (air.wind, start.pose, start.pose_lla, runway, runway_lla)
-    check_declination(air.declination, *(values[-1] for values in given if values))
-    if (runway is None) == (runway_lla is None):
-        raise InvalidArgument("runway", "or --runway-lla is needed, and not both")
-    if (start.pose is None) == (start.pose_lla is None):
-        raise InvalidArgument("pose", "or --pose-lla is needed, and not both")
-    if (start.pose_lla is None) != (runway_lla is None):
-        raise InvalidArgument("pose_lla", "and --runway-lla go together: places in degrees, or both in metres")
-    if runway_lla is None:
-        assert runway is not None  # one of them is given
-        return runway, None
-    lat, lon, heading_deg = runway_lla
-    with argument_names(
-        **{"origin latitude_deg": "threshold latitude_deg", "origin longitude_deg": "threshold longitude_deg"}
-    ):
-        return (0.0, 0.0, heading_deg), LocalFrame(lat, lon)
-
-
-def _radius_m(radius_m: float | None, preset: Preset | None) -> float:
-    """The radius of the option, or of the parameter file."""
-    found = preset.loiter_radius_m if radius_m is None and preset is not None else radius_m
-    if found is None:
-        raise InvalidArgument("radius_m", "is needed, or --params with the radius of loiters")
-    return found
 
 
 def show(
@@ -344,11 +269,6 @@ def _at(uav: AircraftOptions, altitude_m: float) -> AircraftOptions:
     if temperature is not None and uav.altitude is not None:
         temperature -= LAPSE_K_PER_M * (altitude_m - uav.altitude)
     return replace(uav, altitude=altitude_m, temperature=temperature)
-
-
-def with_rates(aircraft: Aircraft, climb_rate_m_s: float | None, descent_rate_m_s: float | None) -> Aircraft:
-    """The aircraft with the rates of the options."""
-    return replace(aircraft, climb_rate_m_s=climb_rate_m_s, descent_rate_m_s=descent_rate_m_s)
 
 
 def leg_lines(plan: LegPlan, frame: LocalFrame | None) -> list[RenderableType]:

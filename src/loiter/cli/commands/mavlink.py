@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 from functools import partial
 from itertools import islice
 from pathlib import Path
@@ -18,18 +18,19 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
 import loiter
 from loiter.cli import report, vehicles
 from loiter.cli.fences import FenceOptions, check_fence
-from loiter.cli.numbers import whole
 from loiter.cli.options import (
     Fit,
+    Json,
     MissionOptions,
     OrbitOptions,
     PlacedOrbitOptions,
     PlacedStartOptions,
     PlannedAircraftOptions,
+    Seconds,
     StartOptions,
     WatchedAircraftOptions,
+    Whole,
     WindOptions,
-    output,
 )
 from loiter.cli.scenes import fit_proposed, read_options
 from loiter.errors import InvalidArgument
@@ -53,27 +54,48 @@ Connect = Annotated[
         help="udpin:HOST:PORT waits for a vehicle or router that sends to this port, as MAVProxy and most simulators do to 14550; udpout:HOST:PORT and tcp:HOST:PORT call it: udpout:127.0.0.1:18570 is PX4's simulator, tcp:127.0.0.1:5762 ArduPlane's. A radio is a serial device: /dev/ttyUSB0,57600.",
     ),
 ]
-System = Annotated[
-    int | None,
-    Parameter(
-        group=connection,
-        metavar="N",
-        converter=whole,
-        help="The vehicle's system number, needed if there are several vehicles.",
-    ),
-]
-Timeout = Annotated[
-    float,
-    Parameter(group=connection, metavar="SECONDS", help="Give up after this time without progress."),
-]
-JsonLines = Annotated[bool, Parameter(group=output, help="Print a JSON object a line instead of text.")]
-TrueRadius = Annotated[
-    bool,
-    Parameter(
-        group=connection,
-        help="If NAVL1_LIM_BANK is 0, ArduPlane flies wider loiters at higher altitude; this option sends the radius for which it flies the desired one.",
-    ),
-]
+
+
+@Parameter(name="*", group=connection)
+@dataclass(frozen=True)
+class LinkOptions:
+    """Which vehicle is meant, and how long it may be silent."""
+
+    system: Whole = None
+    """The vehicle's system number, needed if there are several vehicles."""
+    timeout: Seconds = TIMEOUT_S
+    """Give up after this time without progress."""
+
+
+@Parameter(name="*", group=connection)
+@dataclass(frozen=True)
+class RadiusOptions:
+    """The radius that is sent."""
+
+    true_radius: bool = False
+    """If NAVL1_LIM_BANK is 0, ArduPlane flies wider loiters at higher altitude; this option sends the radius for which it flies the desired one."""
+
+
+@Parameter(name="*", group=connection)
+@dataclass(frozen=True)
+class UploadOptions(RadiusOptions):
+    """What is sent."""
+
+    start: bool = False
+    """Command the vehicle to fly the mission, if it is in the air; it is neither armed nor made to take off."""
+
+
+@Parameter(name="*", group=connection)
+@dataclass(frozen=True)
+class WatchOptions:
+    """What is printed, and whether anything is sent."""
+
+    every: Seconds = 1.0
+    """Time between lines."""
+    reports: Whole = None
+    """End after this many lines; at Ctrl-C if absent."""
+    send: bool = False
+    """Command the vehicle to hold the circle, in the faster direction, as soon as there is a plan; it then flies there by its own guidance. Without this option nothing is commanded."""
 
 
 def upload(
@@ -83,16 +105,8 @@ def upload(
     /,
     *,
     connect: Connect,
-    system: System = None,
-    timeout: Timeout = TIMEOUT_S,
-    true_radius: TrueRadius = False,
-    start: Annotated[
-        bool,
-        Parameter(
-            group=connection,
-            help="Command the vehicle to fly the mission, if it is in the air; it is neither armed nor made to take off.",
-        ),
-    ] = False,
+    link: LinkOptions = LinkOptions(),
+    sent: UploadOptions = UploadOptions(),
     pose: PlacedStartOptions = PlacedStartOptions(),
     circle: PlacedOrbitOptions = PlacedOrbitOptions(),
     uav: PlannedAircraftOptions = PlannedAircraftOptions(),
@@ -100,13 +114,11 @@ def upload(
     fence: FenceOptions = FenceOptions(),
     fit: Fit = False,
     waypoints: MissionOptions = MissionOptions(),
-    json: Annotated[
-        bool, Parameter(group=output, help="Print one JSON object: the plan, and what the vehicle has now.")
-    ] = False,
+    json: Annotated[Json, Parameter(help="Print one JSON object: the plan, and what the vehicle has now.")] = False,
 ) -> None:
     """Send the fastest entry to a vehicle as a mission, and read it back, item by item, to verify it."""
     # These checks come before anything is planned or printed.
-    check_target(connect, system, 1, timeout)
+    check_target(connect, link.system, 1, link.timeout)
     options = (pose, circle, uav, air, waypoints, fence)
     to_send: Mission | Callable[[int], Mission]
     plan: dict[str, object] = {}
@@ -125,11 +137,11 @@ def upload(
         summary = loiter.mavlink.upload(
             to_send,
             connect,
-            system=system,
-            timeout_s=timeout,
+            system=link.system,
+            timeout_s=link.timeout,
             on_progress=on_progress,
-            true_radius=true_radius,
-            start=start,
+            true_radius=sent.true_radius,
+            start=sent.start,
         )
     if json:
         report.print_json({"vehicle": asdict(summary)} | plan)
@@ -226,27 +238,13 @@ def _progress_bars() -> Iterator[Callable[[str, int, int], None]]:
 def watch(
     *,
     connect: Connect,
-    system: System = None,
-    timeout: Timeout = TIMEOUT_S,
-    every: Annotated[float, Parameter(group=connection, metavar="SECONDS", help="Time between lines.")] = 1.0,
-    reports: Annotated[
-        int | None,
-        Parameter(
-            group=connection, metavar="N", converter=whole, help="End after this many lines; at Ctrl-C if absent."
-        ),
-    ] = None,
-    send: Annotated[
-        bool,
-        Parameter(
-            group=connection,
-            help="Command the vehicle to hold the circle, in the faster direction, as soon as there is a plan; it then flies there by its own guidance. Without this option nothing is commanded.",
-        ),
-    ] = False,
-    true_radius: TrueRadius = False,
+    link: LinkOptions = LinkOptions(),
+    shown: WatchOptions = WatchOptions(),
+    radius: RadiusOptions = RadiusOptions(),
     circle: PlacedOrbitOptions = PlacedOrbitOptions(),
     uav: WatchedAircraftOptions = WatchedAircraftOptions(),
     air: WindOptions = WindOptions(),
-    json: JsonLines = False,
+    json: Annotated[Json, Parameter(help="Print a JSON object a line instead of text.")] = False,
 ) -> None:
     """Receive the telemetry of a vehicle and print, live, the fastest entry from its position."""
     if not circle.placed:
@@ -254,8 +252,8 @@ def watch(
     air.check_declination()
     orbit, frame = circle.circle(uav.preset)
     assert frame is not None  # the circle is in degrees
-    if reports is not None and reports < 1:
-        raise InvalidArgument("reports", f"is {reports}: it must be at least 1")
+    if shown.reports is not None and shown.reports < 1:
+        raise InvalidArgument("reports", f"is {shown.reports}: it must be at least 1")
     wind = None if air.wind is None else air.moving_air
     vehicle_reports = loiter.mavlink.watch(
         connect,
@@ -263,21 +261,21 @@ def watch(
         frame,
         uav.aircraft,
         wind,
-        system=system,
-        period_s=every,
-        timeout_s=timeout,
-        send=send,
-        altitude_m=uav.written_altitude if send else None,
-        true_radius=true_radius,
+        system=link.system,
+        period_s=shown.every,
+        timeout_s=link.timeout,
+        send=shown.send,
+        altitude_m=uav.written_altitude if shown.send else None,
+        true_radius=radius.true_radius,
     )
     if json:
-        for vehicle in islice(vehicle_reports, reports):
+        for vehicle in islice(vehicle_reports, shown.reports):
             vehicles.print_line(vehicles.watch_document(vehicle))
         return
     if remark := uav.remark:
         report.write(remark)
     commanded = False
-    for vehicle in islice(vehicle_reports, reports):
+    for vehicle in islice(vehicle_reports, shown.reports):
         if vehicle.commanded and not commanded and vehicle.turn is not None:
             report.write(f"The vehicle was commanded to hold the circle {vehicle.turn.described}.")
         commanded = vehicle.commanded

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Annotated
@@ -16,8 +16,8 @@ import loiter
 from loiter.cli import report
 from loiter.cli.fences import FenceOptions, check_fence
 from loiter.cli.options import (
-    TOLERANCE_HELP,
     AircraftOptions,
+    Bearing,
     Files,
     Fit,
     Json,
@@ -25,8 +25,8 @@ from loiter.cli.options import (
     OrbitOptions,
     PictureOptions,
     PlannedAircraftOptions,
-    SlotBearing,
-    SlotTime,
+    Seconds,
+    SlotOptions,
     StartOptions,
     Tolerance,
     WindOptions,
@@ -55,29 +55,43 @@ from loiter.verify.certificate import Certificate
 # A place on the circle and when to be there: a slot, or a time in seconds from the start and a bearing in degrees.
 Place = Slot | tuple[float, float]
 
-# The options of the command, in the order of its help.
+
+@Parameter(name="*", group=scene)
+@dataclass(frozen=True)
+class PlaceOptions(SlotOptions):
+    """Where on the circle the plan ends, and when."""
+
+    arrive: Annotated[float | None, Parameter(metavar="SECONDS")] = None
+    """Join the circle exactly this time from the start, at the place of --bearing, by a path that is as much longer as it must be."""
+    bearing: Bearing = None
+    """The bearing from the centre at which --arrive joins the circle."""
+
+    def place(self) -> Place | None:
+        """The place; None for any. Raises `InvalidArgument` where one option needs another."""
+        if self.arrive is None and self.bearing is None:
+            return slot_of(self.slot, self.slot_at)
+        if self.bearing is None:
+            raise InvalidArgument("arrive_s", "needs --bearing, the place at which the circle is joined")
+        if self.arrive is None:
+            raise InvalidArgument("bearing_deg", "needs --arrive, the time at which the circle is joined there")
+        return self.arrive, self.bearing
+
+    def check_free(self, tolerance: float, *, fenced: bool) -> None:
+        """Raise `InvalidArgument` for options that do not fit a slot or a prescribed time."""
+        one = "slot" if self.arrive is None else "arrive_s"
+        if fenced:
+            raise InvalidArgument(one, "cannot be combined with --fence, which is for free entries")
+        if self.arrive is not None and (self.slot is not None or tolerance != 0.0):
+            other = "--slot" if self.slot is not None else "--tolerance"
+            raise InvalidArgument(one, f"cannot be combined with {other}")
+
+
+# Options in the order of the help.
 Lead = Annotated[
-    float,
+    Seconds,
     Parameter(
         group=scene,
-        metavar="SECONDS",
         help="Plan from where the aircraft will be after this time, if it flies straight on until then, on its heading and in the wind; a circle that moves moves on too. Times in the plan count from then.",
-    ),
-]
-ArrivalTime = Annotated[
-    float | None,
-    Parameter(
-        group=scene,
-        metavar="SECONDS",
-        help="Join the circle exactly this time from the start, at the place of --bearing, by a path that is as much longer as it must be.",
-    ),
-]
-ArrivalBearing = Annotated[
-    float | None,
-    Parameter(
-        group=scene,
-        metavar="DEGREES",
-        help="The bearing from the centre at which --arrive joins the circle.",
     ),
 ]
 All = Annotated[bool, Parameter(name="--all", group=output, help="Show every optimal maneuver, where several tie.")]
@@ -115,12 +129,15 @@ def plan(
     air: WindOptions = WindOptions(),
     fence: FenceOptions = FenceOptions(),
     fit: Fit = False,
-    tolerance: Annotated[Tolerance, Parameter(help=f"{TOLERANCE_HELP}, so that noise does not add a full turn.")] = 0.0,
+    tolerance: Annotated[
+        Tolerance,
+        Parameter(
+            group=scene,
+            help="A start that is beyond the circle, or beyond the last arc onto it, by up to this many metres counts as on it, so that noise does not add a full turn.",
+        ),
+    ] = 0.0,
     lead: Lead = 0.0,
-    slot: SlotBearing = None,
-    slot_at: SlotTime = None,
-    arrive: ArrivalTime = None,
-    bearing: ArrivalBearing = None,
+    at: PlaceOptions = PlaceOptions(),
     all_: All = False,
     json: PlanJson = False,
     pictures: PictureOptions = PictureOptions(),
@@ -139,9 +156,9 @@ def plan(
     wanted.check(check_format)
     has_missions = any(map(is_mission, save))
     along_path = has_missions and waypoints.along_path
-    place = _place(slot, slot_at, arrive, bearing)
+    place = at.place()
     if place is not None:
-        _check_free(arrive, slot, tolerance, fenced=fence.read(site) is not None)
+        at.check_free(tolerance, fenced=fence.read(site) is not None)
     with fit_proposed():
         best, others, check = _solved(problem, place)
     first, *ties = best
@@ -189,29 +206,6 @@ def plan(
     wanted.show(document, *lines, beside=beside)
     is_clear = fenced is None or fenced.check.clear
     return 0 if is_clear and all(certificate.valid for certificate in certified) else CHECK_FAILED
-
-
-def _place(
-    slot: float | None, slot_at: float | None, arrive_s: float | None, bearing_deg: float | None
-) -> Place | None:
-    """The place of the options; None without one. Raises `InvalidArgument` where one option needs another."""
-    if arrive_s is None and bearing_deg is None:
-        return slot_of(slot, slot_at)
-    if bearing_deg is None:
-        raise InvalidArgument("arrive_s", "needs --bearing, the place at which the circle is joined")
-    if arrive_s is None:
-        raise InvalidArgument("bearing_deg", "needs --arrive, the time at which the circle is joined there")
-    return arrive_s, bearing_deg
-
-
-def _check_free(arrive: float | None, slot: float | None, tolerance: float, *, fenced: bool) -> None:
-    """Raise `InvalidArgument` for options that do not fit a slot or a prescribed time."""
-    one = "slot" if arrive is None else "arrive_s"
-    if fenced:
-        raise InvalidArgument(one, "cannot be combined with --fence, which is for free entries")
-    if arrive is not None and (slot is not None or tolerance != 0.0):
-        other = "--slot" if slot is not None else "--tolerance"
-        raise InvalidArgument(one, f"cannot be combined with {other}")
 
 
 def _solved(
