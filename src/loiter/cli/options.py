@@ -1,7 +1,5 @@
 """Options that several commands share, declared once: the start, the circle, the wind, the aircraft, missions."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
@@ -143,7 +141,7 @@ class OrbitOptions:
     orbit_velocity: Annotated[tuple[float, float], VELOCITY, Parameter(group=air)] = (0.0, 0.0)
     """Velocity of the circle over the ground, metres per second; --orbit is its position at the start."""
 
-    def circle(self, preset: Preset | None) -> tuple[Orbit, LocalFrame | None]:
+    def circle(self, preset: "Preset | None") -> tuple[Orbit, LocalFrame | None]:
         """The circle, and the local frame about its centre if it is in degrees; `InvalidArgument` without a circle."""
         radius, turn = (None, None) if preset is None else (preset.loiter_radius_m, preset.turn)
         if sum(map(bool, (self.orbit, self.orbit_lla, self.orbit_from))) != 1:
@@ -167,7 +165,7 @@ class OrbitOptions:
         return bool(self.orbit_lla) or self.orbit_from is not None
 
     @cached_property
-    def site(self) -> Site | None:
+    def site(self) -> "Site | None":
         """The circles, the home and the fence of the mission; None without one. Raises `InvalidArgument`."""
         if self.orbit_from is None:
             return None
@@ -260,7 +258,7 @@ class AircraftOptions:
         return [f"--{field.name.replace('_', '-')}" for field in fields(self) if getattr(self, field.name) is not None]
 
     @cached_property
-    def preset(self) -> Preset | None:
+    def preset(self) -> "Preset | None":
         """The values of the parameter file; None without one."""
         if self.params is None:
             return None
@@ -268,7 +266,7 @@ class AircraftOptions:
 
         return read_parameters(self.params)
 
-    def above_sea(self, datum: AltitudeDatum) -> AircraftOptions:
+    def above_sea(self, datum: AltitudeDatum) -> "AircraftOptions":
         """The same options with the altitude above mean sea level, if an indicated airspeed needs it.
 
         Raises `InvalidArgument` where that altitude is unknown.
@@ -406,7 +404,7 @@ class WindOptions:
         """A heading of the start, degrees clockwise from true north; `argument` names it in errors."""
         return true_direction(argument, heading_deg, self.declination)
 
-    def check_declination(self, start: StartOptions | None = None) -> None:
+    def check_declination(self, start: "StartOptions | None" = None) -> None:
         """Raise `InvalidArgument` for a declination that has no effect on the wind and on the start."""
         poses = [] if start is None else [start.pose, start.pose_lla]
         check_declination(self.declination, *(values[-1] for values in (self.wind, *poses) if values))
@@ -437,7 +435,7 @@ class MissionOptions:
     home_altitude: Metres = None
     """Altitude of the home position above mean sea level; needed for altitudes above home or ground, unless --orbit-from has a home."""
 
-    def datum(self, site: Site | None = None) -> AltitudeDatum:
+    def datum(self, site: "Site | None" = None) -> AltitudeDatum:
         """The reference of --altitude; the altitude of home may come from an existing mission."""
         home_m = self.home_altitude
         if home_m is None and site is not None and self.altitude_reference != "msl":

@@ -39,7 +39,7 @@ from loiter.guidance.entry.slot_entry import BAND
 
 @Parameter(name="*", group=connection)
 @dataclass(frozen=True)
-class GuideOptions(LinkOptions):
+class GuideOptions:
     """How the vehicle is guided."""
 
     every: Seconds = 1.0
@@ -92,6 +92,7 @@ def guide(
             help="Instead of --connect: several vehicles at once, each into a slot of the circle. A CSV file with a row for each: connect, and optionally name and system.",
         ),
     ] = None,
+    link: LinkOptions = LinkOptions(),
     how: GuideOptions = GuideOptions(),
     circle: GuidedOrbitOptions = GuidedOrbitOptions(),
     uav: GuidedVehicleOptions = GuidedVehicleOptions(),
@@ -119,7 +120,7 @@ def guide(
         raise InvalidArgument("yes", "is needed where nobody can answer: standard input is not a terminal")
     alone = {
         "connection": connect,
-        "system": how.system,
+        "system": link.system,
         "slot": slotted.slot,
         "slot_at_s": slotted.slot_at,
         "log": log,
@@ -144,7 +145,9 @@ def guide(
             slot_band=BAND if slotted.slot_band is None else slotted.slot_band,
         )
         question = None if how.yes or how.dry_run else _question()
-        request = FleetRequest(each, how.timeout, how.resume, 0.0 if slotted.separation is None else slotted.separation)
+        request = FleetRequest(
+            each, link.timeout, how.resume, 0.0 if slotted.separation is None else slotted.separation
+        )
         return guide_fleet(fleet, request, FleetOutput(question, how.dry_run, how.every, json))
     if connect is None:
         raise InvalidArgument("connection", "is needed, or --fleet for several vehicles")
@@ -155,9 +158,9 @@ def guide(
         airspeed_m_s=uav.airspeed,
         max_bank_deg=uav.bank,
         wind=wind,
-        system=how.system,
+        system=link.system,
         period_s=how.every,
-        timeout_s=how.timeout,
+        timeout_s=link.timeout,
         altitude_m=altitude_m,
         keep=how.keep,
         dry_run=how.dry_run,
