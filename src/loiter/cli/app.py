@@ -47,50 +47,24 @@ loiter COMMAND --help shows the options of a command.""",
 )  # fmt: skip
 
 
-def add_command(target: str, group: Group, sort_key: int, text: str, usage: str | None = None) -> None:
-    """Add the command of a function, "module:function"; the module is imported when the command runs."""
-    _, _, name = target.partition(":")
-    place = f"loiter.cli.commands.{target}"
-    app.command(place, group=group, sort_key=sort_key, usage=usage, help_epilogue=epilogue(name), help=text)
-
-
-add_command(
-    "plan:plan",
-    planning,
-    0,
-    """Plan the fastest entry onto a holding circle: which turns to fly, for how long, and where to peel off.
+# The commands of each group in the order of the help: where their functions are, and what they do.
+COMMANDS = (
+    (
+        planning,
+        {
+            "plan:plan": """Plan the fastest entry onto a holding circle: which turns to fly, for how long, and where to peel off.
 
 It needs a start (--pose), a circle (--orbit), the airspeed, and one limit on the turn (--bank, --turn-radius or --turn-rate). Everything else is optional.""",
-)
-add_command(
-    "legs:leg",
-    planning,
-    1,
-    """Plan the fastest way in, round and out of a holding circle: the entry, how long to hold, and where to leave.
+            "legs:leg": """Plan the fastest way in, round and out of a holding circle: the entry, how long to hold, and where to leave.
 
 It needs what loiter plan needs, and the point to fly to afterwards (--exit-to). The aircraft leaves the circle on the tangent to that point, once the least hold, the turns and the altitude are reached; all of them together take the least time.""",
-)
-add_command(
-    "fleet:fleet",
-    planning,
-    2,
-    """Plan the entries of several aircraft onto one circle, each into a slot: a place that moves round the circle with the hold.
+            "fleet:fleet": """Plan the entries of several aircraft onto one circle, each into a slot: a place that moves round the circle with the hold.
 
 FILE is a CSV file with a row for each aircraft: its position and heading, in the columns of loiter batch, and a name if it has a column name. They are of one kind, and share the circle, the airspeed, the turn limit and the wind. Their slots pass a place at equal intervals; which aircraft takes which slot brings the last one in soonest.""",
-)
-add_command(
-    "legs:land",
-    planning,
-    3,
-    """Plan the fastest landing by a circle beside the final approach: the entry, the way down, and the approach.
+            "legs:land": """Plan the fastest landing by a circle beside the final approach: the entry, the way down, and the approach.
 
 It needs a start with --pose and --altitude, the runway (--runway, --elevation), the circle's --radius, the least length of the final approach (--final), the airspeed, one limit on the turn, and the --descent-rate. The circle touches the final approach, to its right or to its left, and is left at the altitude of the glide slope; side, turns and entry are those with the least time over the threshold.""",
-)
-add_command(
-    "batch:batch",
-    planning,
-    4,
-    """Plan the fastest entry for every row of a table: Parquet or CSV, any size.
+            "batch:batch": """Plan the fastest entry for every row of a table: Parquet or CSV, any size.
 
 IN has the columns east_m, north_m and heading_deg. It may have orbit_east_m, orbit_north_m and orbit_radius_m; turn (cw, ccw or either); airspeed_m_s; max_bank_deg, min_turn_radius_m or max_turn_rate_deg_s; wind_speed_m_s and wind_from_deg; and orbit_velocity_east_m_s and orbit_velocity_north_m_s. Values without a column come from options; all are needed except the turn, the wind and the circle's velocity.
 
@@ -99,68 +73,41 @@ OUT has the rows and the columns of IN, in their order, and then duration_s, wor
 IN is a file, a folder of files, a pattern such as 'states-*.parquet' in quotes, or a URL of one of these: s3://, gs:// or az://. OUT is a file, or with a slash at the end, OUT/, a folder of Parquet files (a dataset, as Dask, Spark, DuckDB and Polars read it), or a URL of one of these. Many workers fill a folder faster than a file.
 
 A file is written whole or not at all. Until then finished parts are kept in OUT.parts. In a folder each part is written whole or not at all, and _SUCCESS says that all are there. Run the same command again to continue an interrupted job.""",
-)
-add_command(
-    "mavlink:upload",
-    flights,
-    4,
-    "Send the fastest entry to a vehicle as a mission, then read the mission back and compare it item by item.",
-    usage="Usage: loiter upload --connect LINK [OPTIONS] [FILE]",
-)
-add_command(
-    "mavlink:watch",
-    flights,
-    5,
-    "Listen to a vehicle and print, live, the fastest entry from its position.",
-)
-add_command(
-    "guide:guide",
-    flights,
-    6,
-    """Guide a vehicle in flight onto the circle in least time, then hand it over to its own hold of the circle.
+            "serve:serve": "Serve, over HTTP, plans for programs and a page that shows the plan while you drag the aircraft.",
+        },
+    ),
+    (
+        flights,
+        {
+            "fly:fly": """Simulate flights: a guidance law flies the fastest entry in closed loop, compared with the laws that autopilots use today.
+
+One flight needs the same options as loiter plan; --runs flies from random starts. No vehicle is connected: for that there is loiter guide.""",
+            "mavlink:upload": "Send the fastest entry to a vehicle as a mission, then read the mission back and compare it item by item.",
+            "mavlink:watch": "Listen to a vehicle and print, live, the fastest entry from its position.",
+            "guide:guide": """Guide a vehicle in flight onto the circle in least time, then hand it over to its own hold of the circle.
 
 First the vehicle is commanded to hold the circle by its own guidance, the fall-back circle. Then its bank is commanded many times a second: ArduPlane's in GUIDED, PX4's in OFFBOARD; the autopilot holds altitude and airspeed. Once the circle is held steadily, the vehicle confirms that it holds it by its own guidance, and nothing more is sent. The vehicle must be in flight, and it and the circle at least 30 m above home: it is never armed, and never takes off or lands.
 
 Before the first command a summary shows what is taken over and what happens if the link dies, and a question is asked; --yes answers it. Guiding stops at once, and one sentence says why, if the link or the telemetry is lost, the pilot or a failsafe changes the mode, another station commands, the altitude departs, or at Ctrl-C; the vehicle then flies the fall-back circle, or what the pilot wants. Airspeed and bank limit are those of the autopilot's parameters unless options give them. docs/autopilots.md has the details.""",
+        },
+    ),
+    (
+        theory,
+        {
+            "synthesis:synthesis": "Map the optimal synthesis of the reduced plane: the fastest word in each region, and the curves between the regions.",
+            "figures:figures": "Draw the seven figures of the paper, and write their captions.",
+            "verify:verify": "Compare plans with independent methods: search, 50 digits, collocation, reachability, and a search in wind.",
+            "prove:prove": "Check the lemmas of docs/proof.md on the kernel's own formulas, for all states and radii, in exact algebra and ball arithmetic. What docs/proof.md argues in words or cites is not checked.",
+        },
+    ),
 )
-add_command(
-    "fly:fly",
-    flights,
-    3,
-    """Simulate flights: a guidance law flies the fastest entry in closed loop, compared with the laws that autopilots use today.
-
-One flight needs the same options as loiter plan; --runs flies from random starts. No vehicle is connected: for that there is loiter guide.""",
-)
-add_command(
-    "synthesis:synthesis",
-    theory,
-    7,
-    "Map the optimal synthesis of the reduced plane: the fastest word in each region, and the curves between the regions.",
-)
-add_command(
-    "figures:figures",
-    theory,
-    8,
-    "Draw the seven figures of the paper, and write their captions.",
-)
-add_command(
-    "verify:verify",
-    theory,
-    9,
-    "Compare plans with independent methods: search, 50 digits, collocation, reachability, and a search in wind.",
-)
-add_command(
-    "prove:prove",
-    theory,
-    10,
-    "Check the lemmas of docs/proof.md on the kernel's own formulas, for all states and radii, in exact algebra and ball arithmetic. What docs/proof.md argues in words or cites is not checked.",
-)
-add_command(
-    "serve:serve",
-    planning,
-    5,
-    "Serve, over HTTP, plans for programs and a page that shows the plan while you drag the aircraft.",
-)
+for group, commands in COMMANDS:
+    for order, (target, text) in enumerate(commands.items()):
+        command = target.partition(":")[2]
+        # The module of a command is imported when it runs.
+        place = f"loiter.cli.commands.{target}"
+        usage = "Usage: loiter upload --connect LINK [OPTIONS] [FILE]" if command == "upload" else None
+        app.command(place, group=group, sort_key=order, usage=usage, help_epilogue=epilogue(command), help=text)
 
 
 @app.command(help_epilogue=epilogue("completion"))
