@@ -6,7 +6,7 @@
  * @import {Actions} from "../state/actions.js"
  * @import {Scene, Zone} from "../shared/types.js"
  * @import {View} from "../shared/geometry.js"
- * @import {Field} from "./input_fields.js"
+ * @import {Field, Source} from "./input_fields.js"
  */
 import {
   freeName,
@@ -81,9 +81,9 @@ export function fenceFields(store, actions) {
 /** @param {Store} store @param {Actions} actions */
 function marginField(store, actions) {
   const input = byId("margin", HTMLInputElement);
-  const field = numberField(input, {
+  /** @type {Source} */
+  const source = {
     quantity: () => "length",
-    units: () => store.get().units,
     get: () => store.get().scene.fence?.margin_m ?? undefined,
     parse(text) {
       const entry = parseNumber(text, "length", store.get().units);
@@ -91,15 +91,14 @@ function marginField(store, actions) {
     },
     set: (value, event) => actions.changeScene(withMargin(store.get().scene, value ?? null), event),
     optional: true,
-  });
+  };
   store.watch(
-    ({ scene, units, fence }) => [scene, units, fence],
+    ({ units, fence }) => [units, fence],
     ({ units, fence }) => {
-      field.draw();
       if (fence?.check) input.placeholder = String(sixDigits(fence.check.margin_m / unitOf("length", units).size));
     },
   );
-  return field;
+  return numberField(input.id, source, store);
 }
 
 /** A new zone in a corner of the plan. @param {string} kind @param {View} view @param {Zone[]} zones @returns {Zone} */

@@ -16,7 +16,7 @@ import { remember } from "../shared/storage.js";
 import { asUnits, tidy } from "../shared/units.js";
 import { needsHome } from "./altitude.js";
 import { pairProblem, parseAngle, parsePair } from "./coordinates.js";
-import { choiceField, numberField } from "./input_fields.js";
+import { choiceField, numberFields } from "./input_fields.js";
 import { fenceFields } from "./fence_fields.js";
 import { legFields } from "./leg_fields.js";
 import { placeFields } from "./place_fields.js";
@@ -95,7 +95,6 @@ export function originFields(store, actions) {
   /** @param {keyof Origin} name @returns {Source} */
   const sourceOf = (name) => ({
     quantity: () => "degrees",
-    units: () => store.get().units,
     get: () => store.get().place[name],
     parse: (text) => parseAngle(text, name),
     shown: (value) => tidy(value, 1e-7), // 1 cm
@@ -115,14 +114,7 @@ export function originFields(store, actions) {
     },
     optional: true,
   });
-  const fields = {
-    latitude: numberField(byId("latitude", HTMLInputElement), sourceOf("latitude_deg")),
-    longitude: numberField(byId("longitude", HTMLInputElement), sourceOf("longitude_deg")),
-  };
-  store.watch(
-    ({ place }) => [place],
-    () => Object.values(fields).forEach((field) => field.draw()),
-  );
+  const fields = numberFields({ latitude: sourceOf("latitude_deg"), longitude: sourceOf("longitude_deg") }, store);
   return fields;
 }
 
@@ -140,26 +132,22 @@ export function altitudeFields(store, actions) {
   /** @param {"altitude_m" | "home_altitude_m"} name @returns {Source} */
   const sourceOf = (name) => ({
     quantity: () => "length",
-    units: () => store.get().units,
     get: () => store.get().altitude[name],
     set: (value, event) => change({ [name]: value }, event),
     optional: true,
   });
-  const fields = {
-    altitude: numberField(byId("altitude", HTMLInputElement), sourceOf("altitude_m")),
-    "altitude-reference": choiceField(
-      byId("altitude-reference", HTMLElement),
-      () => store.get().altitude.altitude_reference ?? "",
-      (altitude_reference) => change({ altitude_reference }),
-    ),
-    "home-altitude": numberField(byId("home-altitude", HTMLInputElement), sourceOf("home_altitude_m")),
-  };
+  const reference = choiceField(
+    byId("altitude-reference", HTMLElement),
+    () => store.get().altitude.altitude_reference ?? "",
+    (altitude_reference) => change({ altitude_reference }),
+  );
   store.watch(
-    ({ altitude, units }) => [altitude, units],
+    ({ altitude }) => [altitude],
     ({ altitude }) => {
       show(byId("home", HTMLElement), needsHome(altitude));
-      for (const field of Object.values(fields)) field.draw();
+      reference.draw();
     },
   );
-  return fields;
+  const numbers = numberFields({ altitude: sourceOf("altitude_m"), "home-altitude": sourceOf("home_altitude_m") }, store);
+  return { ...numbers, "altitude-reference": reference };
 }

@@ -3,12 +3,11 @@
  * Fields for numbers and choices. If a text is not a number, or the service refuses the number, the field is marked,
  * with a sentence below it. Until the text is corrected, the previous number stays in use.
  *
- * @import {Units} from "../shared/types.js"
+ * @import {Store} from "../state/store.js"
  * @import {Quantity} from "../shared/units.js"
  *
  * @typedef {object} Source  the number that a field shows and sets
  * @property {() => Quantity} quantity
- * @property {() => Units} units
  * @property {() => number | undefined} get  in metres, metres per second or degrees; undefined if there is none
  * @property {(value: number | undefined, event: Event) => void} set
  * @property {boolean} [optional]  whether the field may be empty
@@ -17,12 +16,12 @@
  * @property {(text: string, event: Event) => boolean} [takeAll]  takes a text that sets several fields, or returns false
  *
  * @typedef {object} Field
- * @property {() => void} draw  show the present number
+ * @property {() => void} draw  show the present number; fields of numbers do so whenever it changes
  * @property {(sentence: string | null) => void} refuse  mark the number as wrong, or remove the mark
  * @property {() => string} typo  the error in the text, or nothing
  * @property {() => void} [redraw]  show the present number in place of the text
  */
-import { html, setAttributes, setText } from "../shared/dom.js";
+import { byId, html, setAttributes, setText } from "../shared/dom.js";
 import { sixDigits, unitOf } from "../shared/units.js";
 import { nameOf } from "./field_names.js";
 import { parseNumber } from "./number_text.js";
@@ -45,10 +44,11 @@ const ARROWS = { ArrowUp: 1, ArrowDown: -1 };
 
 /** @implements {Field} */
 class NumberField {
-  /** @param {HTMLInputElement} input @param {Source} source */
-  constructor(input, source) {
+  /** @param {HTMLInputElement} input @param {Source} source @param {Store} store */
+  constructor(input, source, store) {
     this.input = input;
     this.source = source;
+    this.units = () => store.get().units;
     this.line = errorLine(input);
     this.timer = 0;
     this.textError = "";
@@ -58,11 +58,15 @@ class NumberField {
     input.addEventListener("input", (event) => this.read(event));
     input.addEventListener("blur", () => this.draw());
     input.addEventListener("keydown", (event) => this.step(event));
+    store.watch(
+      ({ units }) => [source.get(), source.quantity(), units],
+      () => this.draw(),
+    );
   }
 
   draw() {
     const { input, source } = this;
-    const { name, size } = unitOf(source.quantity(), source.units());
+    const { name, size } = unitOf(source.quantity(), this.units());
     const suffix = input.nextElementSibling;
     if (suffix) setText(suffix, name);
     const value = source.get();
@@ -107,7 +111,7 @@ class NumberField {
   /** @param {string} text @returns {import("./number_text.js").Entry} */
   parse(text) {
     const { source } = this;
-    return source.parse ? source.parse(text) : parseNumber(text, source.quantity(), source.units());
+    return source.parse ? source.parse(text) : parseNumber(text, source.quantity(), this.units());
   }
 
   /** Show the present number in place of the text. */
@@ -122,7 +126,7 @@ class NumberField {
     const value = source.get();
     const step = ARROWS[event.key];
     if (!step || value === undefined || this.textError !== "") return;
-    const { size } = unitOf(source.quantity(), source.units());
+    const { size } = unitOf(source.quantity(), this.units());
     input.value = String(sixDigits(value / size + step));
     this.read(event);
     event.preventDefault();
@@ -140,8 +144,12 @@ class NumberField {
   }
 }
 
-/** @param {HTMLInputElement} input @param {Source} source @returns {Field} */
-export const numberField = (input, source) => new NumberField(input, source);
+/** @param {string} id @param {Source} source @param {Store} store @returns {Field} */
+export const numberField = (id, source, store) => new NumberField(byId(id, HTMLInputElement), source, store);
+
+/** Fields by their ids. @param {Record<string, Source>} sources @param {Store} store @returns {Record<string, Field>} */
+export const numberFields = (sources, store) =>
+  Object.fromEntries(Object.entries(sources).map(([id, source]) => [id, numberField(id, source, store)]));
 
 /**
  * A choice among radio buttons.

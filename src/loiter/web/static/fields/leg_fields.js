@@ -12,7 +12,7 @@
  */
 import { exitOf, withExit, withLeg, withoutLeg } from "../scene/leg.js";
 import { byId, show } from "../shared/dom.js";
-import { numberField } from "./input_fields.js";
+import { numberFields } from "./input_fields.js";
 
 /** The numbers of a leg, by their fields. An empty field stands for the last value. @type {Record<string, [Quantity, Name, 0 | null]>} */
 const NUMBERS = {
@@ -26,18 +26,15 @@ const NUMBERS = {
 
 /** @param {Store} store @param {Change} change @returns {Record<string, Field>} */
 export function legFields(store, change) {
-  const units = () => store.get().units;
   /** @param {"east_m" | "north_m"} axis @returns {Source} */
   const place = (axis) => ({
     quantity: () => "length",
-    units,
     get: () => (store.get().scene.leg ? exitOf(store.get().scene)[axis] : undefined),
     set: (value, event) => value !== undefined && change(withExit(store.get().scene, { [axis]: value }), event),
   });
   /** @param {[Quantity, Name, 0 | null]} number @returns {Source} */
   const number = ([quantity, name, empty]) => ({
     quantity: () => quantity,
-    units,
     get() {
       const value = store.get().scene.leg?.[name] ?? empty;
       return value === empty || value === null ? undefined : value;
@@ -48,23 +45,19 @@ export function legFields(store, change) {
   /** @type {Record<string, Source>} */
   const sources = { "exit-east": place("east_m"), "exit-north": place("north_m") };
   for (const [id, one] of Object.entries(NUMBERS)) sources[id] = number(one);
-  const fields = Object.fromEntries(
-    Object.entries(sources).map(([id, source]) => [id, numberField(byId(id, HTMLInputElement), source)]),
-  );
   byId("drop-exit", HTMLButtonElement).addEventListener("click", (event) => {
     change(withoutLeg(store.get().scene), event);
     byId("add-exit", HTMLElement).focus();
   });
   let climbs = false;
   store.watch(
-    ({ scene, units }) => [scene.leg, units],
+    ({ scene }) => [scene.leg],
     ({ scene }) => {
       const climbed = climbs;
       climbs = (scene.leg?.altitude_m ?? null) !== null;
       if (climbs && !climbed) byId("leg-climb", HTMLDetailsElement).open = true;
       show(byId("leg", HTMLElement), scene.leg !== null);
-      for (const field of Object.values(fields)) field.draw();
     },
   );
-  return fields;
+  return numberFields(sources, store);
 }

@@ -18,7 +18,7 @@ import { LIMITS, limitOf, withOrbit, withPose, withWind } from "../scene/scene.j
 import { byId, setText } from "../shared/dom.js";
 import { wrapped } from "../shared/geometry.js";
 import { tidy } from "../shared/units.js";
-import { choiceField, numberField } from "./input_fields.js";
+import { choiceField, numberFields } from "./input_fields.js";
 import { parseNumber } from "./number_text.js";
 import { limitFor, turnRadiusOf } from "../shared/turning.js";
 
@@ -81,9 +81,7 @@ const partOf = (id, scene) => (id === "limit" ? limitPart(scene) : PARTS[id]);
 /** @param {Store} store @param {Change} change */
 export function sceneFields(store, change) {
   const ids = [...Object.keys(PARTS), "limit"];
-  const fields = Object.fromEntries(
-    ids.map((id) => [id, numberField(byId(id, HTMLInputElement), sourceOf(id, store, change))]),
-  );
+  const fields = numberFields(Object.fromEntries(ids.map((id) => [id, sourceOf(id, store, change)])), store);
   limitChoice(store, change);
   const turn = choiceField(
     byId("turn", HTMLElement),
@@ -92,11 +90,10 @@ export function sceneFields(store, change) {
   );
   store.watch(({ scene }) => [scene.orbit.turn], turn.draw);
   store.watch(
-    ({ scene, units }) => [scene, units],
+    ({ scene }) => [scene.wind === null],
     ({ scene }) => {
       byId("wind-from", HTMLInputElement).disabled = scene.wind === null;
       setText(byId("wind-calm", HTMLElement), scene.wind ? "" : CALM);
-      for (const field of Object.values(fields)) field.draw();
     },
   );
   return fields;
@@ -114,7 +111,6 @@ function sourceOf(id, store, change) {
   const part = () => partOf(id, store.get().scene);
   return {
     quantity: () => part().quantity,
-    units: () => store.get().units,
     get: () => part().get(store.get().scene),
     parse(text) {
       const { quantity } = part();
