@@ -60,7 +60,7 @@ def options(command: App) -> Iterator[str]:
     """The options of a command, group by group, in the order of its help."""
     groups: dict[str, list[Argument]] = {}
     order: dict[str, float] = {}
-    for argument in command.assemble_argument_collection():
+    for argument in command.assemble_argument_collection(parse_docstring=True):
         if argument.show and argument.names != ("*",):
             group, *_ = argument.parameter.group
             groups.setdefault(group.name, []).append(argument)

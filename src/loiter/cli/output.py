@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import Any, NamedTuple
 
 from rich.console import RenderableType
 
@@ -13,9 +13,6 @@ from loiter.cli.options import PictureOptions
 from loiter.cli.sentences import argument_names
 from loiter.plot import files
 from loiter.writing import write_content
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 
 class Output(NamedTuple):
@@ -37,8 +34,8 @@ class Output(NamedTuple):
         for path, found in [(path, content(path)) for path in self.save]:
             write_content("save", path, found)
 
-    def draw(self, figure: Figure, paths: Iterable[Path] | None = None) -> None:
-        """Write a figure to the files of --plot, or to others beside them."""
+    def draw(self, figure: Any, paths: Iterable[Path] | None = None) -> None:
+        """Write a figure of matplotlib to the files of --plot, or to others beside them."""
         with argument_names(path="plot"):
             files.save_pictures(self.pictures.plot if paths is None else paths, figure, self.pictures.format)
 
