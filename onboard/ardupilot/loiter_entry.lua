@@ -2,7 +2,7 @@
 --
 -- Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
 --
--- SHA-256 of the source: 07649e04b6c59373ab116ca8af7b2faed8d9a61e29c79d65e36b8c1cd681a5e5
+-- SHA-256 of the source: d03fa7f75beb37d93da0b530dc9487a16e57cb7b71570c7b0aa8fb82f9049ea7
 --
 -- When a switch asks for it, this script flies a plane onto the holding circle around its present target in least
 -- time, and then leaves the circle to ArduPlane: loiter_entry.md. It works by GUIDED_CHANGE_HEADING in GUIDED: the target

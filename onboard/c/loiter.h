@@ -6,7 +6,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 2d925d42daca4b8bc32e535c8cd845fedee153c697a4d51ca6a3e88a62224b56
+ * SHA-256 of the source: b5ebcc1404293ea46387f20b68204c0efaff230a31504265ba4595cb3369cf4b
  */
 #ifndef LOITER_ONBOARD_H
 #define LOITER_ONBOARD_H
