@@ -27,7 +27,7 @@ suppress_warnings = ["config.cache"]
 # A link to a page, a heading or a name that does not exist is an error, like every other warning.
 nitpicky = True
 # Except types of other packages: nothing is fetched, so their documentation is unknown; and type variables.
-nitpick_ignore_regex = [("py:class", r"(?!loiter\.).*|.*\.(AnyTime|AnyFrame|OtherArrays)")]
+nitpick_ignore_regex = [("py:class", r"(?!loiter\.).*|.*\.(AnyTime|AnyFrame|OtherArrays?)")]
 smartquotes = False
 default_role = "code"
 

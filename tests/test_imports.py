@@ -50,6 +50,10 @@ def test_the_plan_command_loads_no_matplotlib(output):
     assert loaded_by_command(*PLAN, *output).isdisjoint({"numba", "matplotlib"})
 
 
+def test_the_plan_command_loads_no_numpy():
+    assert "numpy" not in loaded_by_command(*PLAN)
+
+
 def test_a_picture_loads_matplotlib(tmp_path):
     loaded = loaded_by_command(*PLAN, "--plot", "entry.png", folder=tmp_path)
     assert "matplotlib" in loaded

@@ -8,8 +8,8 @@ from typing import Any
 class LazyModule(ModuleType):
     """A module by its name, imported at the first use of one of its names.
 
-    It is for annotations with types of heavy packages: they are evaluated only where something asks for them,
-    such as `typing.get_type_hints`.
+    It is for types of heavy packages: annotations are evaluated only where something asks for them, such as
+    `typing.get_type_hints`, and a class is needed only where one is made or compared.
     """
 
     def __getattr__(self, name: str) -> Any:

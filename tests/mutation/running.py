@@ -28,6 +28,11 @@ PYTEST += ["-o", "faulthandler_exit_on_timeout=true"]
 # A plugin that takes a second to load, for the tests of the service alone.
 WITHOUT_SCHEMAS = ["-p", "no:schemathesis"]
 
+# Plans and arrays run the C that is generated from the kernel: without it a mutant of the kernel would change nothing.
+TRANSLATED = "kernel/"
+TRANSLATION = (["-m", "codegen"], ["hatch_build.py"])
+GENERATED = ("native", "compiled", "web/static/kernel")
+
 # What pytest says of the test that failed, and of a file that could not be imported, which has no colons.
 FAILED = re.compile(r"^(?:FAILED|ERROR) (.+?::.+?)(?: - |$)", re.MULTILINE)
 
@@ -42,7 +47,11 @@ HEAVY = [
 ]
 LIMITS = "tests/batch/test_resume.py::test_limits_of_this_process_are_as_they_were"
 WIND = (
-    [*tests("kernel", "wind_search"), *tests("planning", "hold wind"), *(f"--deselect={test}" for test in HEAVY)],
+    [
+        *tests("kernel", "wind_search cell_bounds slots slot_folds"),
+        *tests("planning", "hold wind arrival slot"),
+        *(f"--deselect={test}" for test in HEAVY),
+    ],
     [*tests("verify", "certificate_in_wind"), *tests("evidence", "wind_scan"), *HEAVY],
 )
 
@@ -73,6 +82,7 @@ STAGES = {
             "README.md",
         ],
     ),
+    "fences/": (["tests/fences"], [*tests("cli", "fence"), "docs/fences.md"]),
     "geo/": (
         ["tests/geo", *tests("cli", "places")],
         ["tests/io", *tests("mavlink", "watch"), "docs/maps.md"],
@@ -124,22 +134,40 @@ class Copy:
         self._sound: set[str] = set()
 
     def outcome(self, file: str, source: str) -> Outcome:
-        """What the tests say of a file with another source.
+        """What the tests say of a file with another source; a kernel that cannot be translated is killed, too.
 
         Raises RuntimeError where the test that fails does so without the mutant too.
         """
         place = self.root / "src" / "loiter" / file
         kept = place.read_text("utf-8")
-        for stage in stages(file):
-            place.write_text(source, "utf-8")
-            try:
+        place.write_text(source, "utf-8")
+        try:
+            outcome = self._translate() if file.startswith(TRANSLATED) else Outcome("survived")
+            for stage in stages(file):
+                if outcome.verdict != "survived":
+                    break
                 outcome = self._run(stage)
-            finally:
-                place.write_text(kept, "utf-8")
-            if outcome.verdict != "survived":
-                self._check(outcome.test)
-                return outcome
+        finally:
+            place.write_text(kept, "utf-8")
+            if file.startswith(TRANSLATED):
+                self._restore_translation()
+        self._check(outcome.test)
         return outcome
+
+    def _translate(self) -> Outcome:
+        """Translate the kernel of the copy and build it."""
+        for command in TRANSLATION:
+            done = subprocess.run(
+                [sys.executable, *command], cwd=self.root, env=self._environment(), capture_output=True
+            )
+            if done.returncode:
+                return Outcome("killed")
+        return Outcome("survived")
+
+    def _restore_translation(self) -> None:
+        for folder in GENERATED:
+            package = Path("src", "loiter", folder)
+            shutil.copytree(ROOT / package, self.root / package, dirs_exist_ok=True)
 
     def _check(self, test: str) -> None:
         """See that the test passes without the mutant, with all its parameters: a mutant may bring others."""
@@ -150,15 +178,18 @@ class Copy:
                 raise RuntimeError(f"{test} fails without a mutant: {found.verdict}")
             self._sound.add(test)
 
+    def _environment(self) -> dict[str, str]:
+        paths = os.pathsep.join(str(self.root / folder) for folder in ("src", "tests", "."))
+        return os.environ | {"PYTHONPATH": paths, "XDG_CACHE_HOME": str(self.cache), "PYTHONDONTWRITEBYTECODE": "1"}
+
     def _run(self, arguments: list[str]) -> Outcome:
-        paths = os.pathsep.join(str(self.root / folder) for folder in ("src", "tests"))
         plugins = [] if any("tests/web" in one for one in arguments) else WITHOUT_SCHEMAS
         patience = max(1.0, os.getloadavg()[0] / len(os.sched_getaffinity(0)))
         limit = ["-o", f"faulthandler_timeout={TEST_LIMIT_S * patience:.0f}"]
         process = subprocess.Popen(
             [sys.executable, *PYTEST, *limit, *plugins, *arguments],
             cwd=self.root,
-            env=os.environ | {"PYTHONPATH": paths, "XDG_CACHE_HOME": str(self.cache), "PYTHONDONTWRITEBYTECODE": "1"},
+            env=self._environment(),
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,

@@ -82,14 +82,29 @@ def test_every_file_has_tests_that_exist():
 
 
 def test_a_mutant_is_killed_by_a_test_that_passes_without_it_and_the_original_survives(tmp_path, monkeypatch):
-    monkeypatch.setattr(running, "STAGES", {"kernel/words.py": ()})
-    copy, place = running.Copy(tmp_path), command.PACKAGE / "kernel" / "words.py"
+    monkeypatch.setattr(running, "STAGES", {"planning/compass.py": ()})
+    copy, place = running.Copy(tmp_path), command.PACKAGE / "planning" / "compass.py"
     source = place.read_text()
-    assert copy.outcome("kernel/words.py", source) == ("survived", "")
-    verdict, test = copy.outcome("kernel/words.py", source.replace("    R = encode(-1)\n", "    R = encode(0)\n"))
+    assert copy.outcome("planning/compass.py", source) == ("survived", "")
+    verdict, test = copy.outcome(
+        "planning/compass.py", source.replace("heading = heading_deg % 360.0", "heading = 0.0")
+    )
     assert verdict == "killed"
-    assert test.startswith(("tests/kernel/test_words.py::", "src/loiter/kernel/words.py::"))
-    assert place.read_text() == (copy.root / "src" / "loiter" / "kernel" / "words.py").read_text() == source
+    assert test.startswith(("tests/planning/test_compass.py::", "src/loiter/planning/compass.py::"))
+    assert place.read_text() == (copy.root / "src" / "loiter" / "planning" / "compass.py").read_text() == source
+
+
+def test_a_mutant_of_the_kernel_is_translated_for_its_tests(tmp_path, monkeypatch):
+    monkeypatch.setattr(running, "TRANSLATION", (["-m", "codegen"],))
+    copy, source = running.Copy(tmp_path), (command.PACKAGE / "kernel" / "angles.py").read_text()
+    header, seen = copy.root / "src" / "loiter" / "native" / "kernel.h", []
+    original = header.read_text()
+    monkeypatch.setattr(copy, "_run", lambda stage: seen.append(header.read_text()) or running.Outcome("killed"))
+    assert copy.outcome("kernel/angles.py", source.replace("turned + TWO_PI", "turned - TWO_PI")).verdict == "killed"
+    assert original.count("turned + TWO_PI") == seen[0].count("turned - TWO_PI") == 1
+    assert header.read_text() == original
+    assert copy.outcome("kernel/angles.py", source.replace("    return ", "    return eval")).verdict == "killed"
+    assert len(seen) == 1
 
 
 def test_it_goes_on_where_it_was_and_tries_again_what_survived(tmp_path, monkeypatch, capsys):

@@ -15,7 +15,7 @@ from loiter import Aircraft, Orbit, Pose, Wind, candidates, plan
 from loiter.cli.app import main
 from loiter.errors import InvalidArgument
 from loiter.plot import draw
-from loiter.plot.files import save_pictures
+from loiter.plot.files import save
 from loiter.plot.sizes import LEAST_POINTS, PictureFormat, _balanced, resize
 
 SCENE = (Pose(-400.0, 120.0, 90.0), Orbit(0.0, 0.0, 80.0), Aircraft(18.0, max_bank_deg=35.0))
@@ -138,8 +138,8 @@ def test_the_figure_knows_its_resolution():
     assert draw(BEST).get_dpi() == Figure().get_dpi()
 
 
-def test_files_have_size_and_resolution(tmp_path):
-    save_pictures([tmp_path / "a.png"], draw([BEST]), PictureFormat((127.0, 101.6), 100))
+def test_save_takes_size_and_resolution(tmp_path):
+    save(tmp_path / "a.png", [BEST], size_mm=(127.0, 101.6), dpi=100)
     assert pixels(tmp_path / "a.png")[0] == (500, 400)
 
 

@@ -160,12 +160,12 @@ def check_fence(
     options: FenceOptions, site: Site | None, maneuver: Maneuver | LegPlan, frame: LocalFrame | None
 ) -> CheckedFence | None:
     """Whether a plan or a leg stays clear of the fence of the options or of a mission; None without a fence."""
-    from loiter.fences import Fence
-
     try:
         found = options.read(site)
         if found is None:
             return None
+        from loiter.fences import Fence
+
         if isinstance(found, Fence):
             if frame is not None:
                 raise InvalidArgument("fence", METRES_ONLY)

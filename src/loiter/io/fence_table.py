@@ -6,11 +6,17 @@ import csv
 from collections.abc import Sequence
 from itertools import groupby
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from loiter.errors import file_path
-from loiter.fences.fence import Fence
-from loiter.fences.model import CircleZone, PolygonZone, Zone
 from loiter.io.reading import Source, shown
+from loiter.lazy import LazyModule
+
+if TYPE_CHECKING:
+    from loiter import fences
+    from loiter.fences import model
+else:
+    fences, model = LazyModule("loiter.fences"), LazyModule("loiter.fences.model")
 
 COLUMNS = ("zone", "rule", "east_m", "north_m", "radius_m")
 
@@ -18,7 +24,7 @@ COLUMNS = ("zone", "rule", "east_m", "north_m", "radius_m")
 RULES = {"in": True, "out": False}
 
 
-def read_fence_table(path: str | Path, argument: str = "fence") -> Fence:
+def read_fence_table(path: str | Path, argument: str = "fence") -> fences.Fence:
     """The fence in a CSV table with the columns zone, rule, east_m, north_m and radius_m.
 
     A row with a radius is a circle. Rows without one that follow each other with one name are the corners of a polygon.
@@ -41,10 +47,10 @@ def read_fence_table(path: str | Path, argument: str = "fence") -> Fence:
     groups = [[*group] for _, group in groupby(rows, key=lambda each: (*each[1][:2], each[0] if each[1][4] else ""))]
     if not groups:
         raise source.fault("it has no fence")
-    return Fence(tuple(_zone(source, group) for group in groups))
+    return fences.Fence(tuple(_zone(source, group) for group in groups))
 
 
-def _zone(source: Source, rows: Sequence[tuple[str, list[str]]]) -> Zone:
+def _zone(source: Source, rows: Sequence[tuple[str, list[str]]]) -> model.Zone:
     """The zone of a row with a radius, or of the rows of its corners."""
     (where, (name, rule, _, _, radius)), *_ = rows
     places = [
@@ -53,5 +59,5 @@ def _zone(source: Source, rows: Sequence[tuple[str, list[str]]]) -> Zone:
     ]
     if radius:
         ((east_m, north_m),) = places
-        return CircleZone(name, east_m, north_m, source.number(f"{where}: radius_m", radius), RULES[rule])
-    return PolygonZone(name, tuple((east_m, north_m) for east_m, north_m in places), RULES[rule])
+        return fences.CircleZone(name, east_m, north_m, source.number(f"{where}: radius_m", radius), RULES[rule])
+    return fences.PolygonZone(name, tuple((east_m, north_m) for east_m, north_m in places), RULES[rule])

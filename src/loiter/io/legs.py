@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from loiter.errors import InvalidArgument, file_path, instance
-from loiter.fences.places import PlacedFence
 from loiter.geo.frame import LocalFrame
 from loiter.io.maps.leg_kml import leg_kml
 from loiter.io.missions.fences import fence_document
@@ -14,8 +13,14 @@ from loiter.io.missions.items import Autopilot
 from loiter.io.missions.legs import leg_mission
 from loiter.io.missions.qgcplan import qgcplan
 from loiter.io.missions.wpl import wpl
+from loiter.lazy import LazyModule
 from loiter.planning.leg import LegPlan
 from loiter.writing import write_content
+
+if TYPE_CHECKING:
+    from loiter import fences
+else:
+    fences = LazyModule("loiter.fences")
 
 # The endings of files that `save_leg` writes.
 LEG_FORMATS = (".kml", ".plan", ".waypoints", ".txt")
@@ -27,7 +32,7 @@ def save_leg(
     *,
     frame: LocalFrame,
     autopilot: Autopilot = Autopilot.ARDUPILOT,
-    fence: PlacedFence | None = None,
+    fence: fences.PlacedFence | None = None,
 ) -> None:
     """Write the plan of a leg to `path`: .kml for maps, .plan (QGroundControl) or .waypoints and .txt as missions.
 
@@ -46,12 +51,12 @@ def check_leg_format(path: Path) -> None:
 
 
 def leg_content(
-    plan: LegPlan, path: Path, frame: LocalFrame, autopilot: Autopilot, fence: PlacedFence | None = None
+    plan: LegPlan, path: Path, frame: LocalFrame, autopilot: Autopilot, fence: fences.PlacedFence | None = None
 ) -> bytes:
     """The content of a file of `save_leg`."""
     instance("plan", plan, LegPlan)
     if fence is not None:
-        instance("fence", fence, PlacedFence)
+        instance("fence", fence, fences.PlacedFence)
     check_leg_format(path)
     return leg_text(plan, path.suffix.lower(), frame, autopilot, fence and fence_document(fence))
 

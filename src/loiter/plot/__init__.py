@@ -5,15 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
-from loiter.fences import Breach, Fence
 from loiter.geo import LocalFrame
 from loiter.lazy import LazyModule
 from loiter.planning.maneuver import Maneuver
 
 if TYPE_CHECKING:
     from matplotlib import figure as figures
+
+    from loiter import fences
 else:
-    figures = LazyModule("matplotlib.figure")
+    fences, figures = LazyModule("loiter.fences"), LazyModule("matplotlib.figure")
 
 __all__ = ["draw"]
 
@@ -23,8 +24,8 @@ def draw(
     others: Sequence[Maneuver] = (),
     *,
     frame: LocalFrame | None = None,
-    fence: Fence | None = None,
-    breaches: Sequence[Breach] = (),
+    fence: fences.Fence | None = None,
+    breaches: Sequence[fences.Breach] = (),
     size_mm: tuple[float, float] | None = None,
     dpi: float | None = None,
 ) -> figures.Figure:
@@ -46,7 +47,6 @@ def draw(
     'east (m)'
     """
     from loiter.errors import InvalidArgument, instance
-    from loiter.fences import Fence
     from loiter.plot import picture
     from loiter.plot.sizes import PictureFormat
 
@@ -57,7 +57,7 @@ def draw(
     if frame is not None:
         instance("frame", frame, LocalFrame)
     if fence is not None:
-        instance("fence", fence, Fence)
+        instance("fence", fence, fences.Fence)
     if not maneuvers:
         raise InvalidArgument("maneuver", "is missing: there is none to draw")
     figure = picture.draw(maneuvers, slower, frame=frame, fence=fence, breaches=breaches)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
 
+from loiter.geo import LocalFrame
+from loiter.planning.maneuver import Maneuver
 from loiter.plot.sizes import DPI, PictureFormat
 from loiter.writing import Format, file_format, write_whole
 
@@ -30,6 +32,28 @@ METADATA: dict[str, dict[str, Any]] = {"svg": {"Date": None}, "pdf": {"CreationD
 def check_format(path: Path) -> None:
     """Raise `InvalidArgument` unless `path` ends in one of `FORMATS`."""
     file_format(path, PICTURE_FORMATS)
+
+
+def save(
+    path: str | Path,
+    best: Sequence[Maneuver],
+    others: Sequence[Maneuver] = (),
+    *,
+    frame: LocalFrame | None = None,
+    size_mm: tuple[float, float] | None = None,
+    dpi: float | None = None,
+) -> None:
+    """Write the picture of `plot.draw` to `path`, in the format of its ending: .png, .svg or .pdf.
+
+    `size_mm` is its width and height, `dpi` the resolution of a .png, 150 if absent. The file is replaced atomically.
+    Raises `InvalidArgument` for another ending, for a size or a resolution that `plot.draw` refuses, and for a file
+    that cannot be written.
+    """
+    path, chosen = Path(path), PictureFormat(size_mm, dpi)
+    check_format(path)
+    from loiter.plot.picture import draw
+
+    save_pictures([path], draw(best, others, frame=frame), chosen)
 
 
 def save_pictures(paths: Iterable[Path], figure: Figure, chosen: PictureFormat) -> None:

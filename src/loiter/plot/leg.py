@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from math import degrees
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from loiter.fences import Breach, Fence
 from loiter.geo import LocalFrame
+from loiter.lazy import LazyModule
 from loiter.planning.landing import LandingPlan, Runway
 from loiter.planning.leg import LegPlan
 from loiter.plot.flown import prepare_timeline
@@ -35,6 +35,11 @@ from loiter.plot.picture import (
     prepare_plan,
 )
 
+if TYPE_CHECKING:
+    from loiter import fences
+else:
+    fences = LazyModule("loiter.fences")
+
 # The way out and the hold, and where they begin and end; the entry has the colours of its segments.
 OUT: dict[str, Any] = {"color": "#CC79A7", "linewidth": 2.6}
 HELD: dict[str, Any] = {"color": "#E69F00", "linewidth": 2.6}
@@ -47,7 +52,11 @@ LEAST_RUNWAY_M, PROFILE_STEPS = 200.0, 300
 
 
 def draw(
-    plan: LegPlan, *, frame: LocalFrame | None = None, fence: Fence | None = None, breaches: Sequence[Breach] = ()
+    plan: LegPlan,
+    *,
+    frame: LocalFrame | None = None,
+    fence: fences.Fence | None = None,
+    breaches: Sequence[fences.Breach] = (),
 ) -> Figure:
     """Draw a leg: its entry coloured by segment, the hold up to the exit, and the straight way to the point.
 

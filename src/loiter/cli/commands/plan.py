@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 from pathlib import Path
 from typing import Annotated
 
@@ -211,15 +210,18 @@ def plan(
 def _solved(
     problem: Problem, place: Place | None
 ) -> tuple[Sequence[Maneuver], Sequence[Maneuver], Callable[[Maneuver], Certificate]]:
-    """The best maneuvers to a place or, without one, onto the circle, the others, and what certifies them."""
+    """The best maneuvers to a place or, without one, onto the circle, the others, and what certifies them.
+
+    Certificates need NumPy: a plan without one does not load it.
+    """
     if place is None:
-        return *best_and_others(problem), partial(loiter.verify.certify, tolerance_m=problem.tolerance_m)
+        return *best_and_others(problem), lambda m: loiter.verify.certify(m, tolerance_m=problem.tolerance_m)
     if isinstance(place, Slot):
-        return *best_and_others_in_slot(problem, place), partial(loiter.verify.certify_slot, slot=place)
+        return *best_and_others_in_slot(problem, place), lambda m: loiter.verify.certify_slot(m, slot=place)
     time_s, bearing_deg = place
     with argument_names(time_s="arrive_s"):
         best, others = best_and_others_at(problem, time_s, bearing_deg)
-    return best, others, partial(loiter.verify.certify_arrival, time_s=time_s, bearing_deg=bearing_deg)
+    return best, others, lambda m: loiter.verify.certify_arrival(m, time_s=time_s, bearing_deg=bearing_deg)
 
 
 def _target(autopilot: AutopilotName | None, uav: AircraftOptions) -> Autopilot:

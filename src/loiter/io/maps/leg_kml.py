@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
-import numpy as np
+from typing import TYPE_CHECKING
 
 from loiter.geo.frame import LocalFrame
 from loiter.io.maps.markup import DEGREES, add_geometry, add_styles, child, document, placemark, root
 from loiter.io.maps.places import degrees
+from loiter.lazy import LazyModule
 from loiter.planning.leg import LegPlan
+
+if TYPE_CHECKING:
+    import numpy as np
+else:
+    np = LazyModule("numpy")
 
 # A chord of the tightest turn spans this angle, radians: it is within 1/800 of the radius.
 CHORD_RAD = 0.1

@@ -9,16 +9,21 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from enum import IntEnum
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from loiter.errors import LoiterError, file_path
-from loiter.fences.model import LEAST_CORNERS
-from loiter.fences.places import PlacedCircle, PlacedFence, PlacedPolygon, PlacedZone
 from loiter.io.missions import qgcplan
 from loiter.io.missions.items import MissionItem
 from loiter.io.missions.limits import check_place
 from loiter.io.missions.wpl import MARK, read_items
 from loiter.io.reading import Source, shown
+from loiter.lazy import LazyModule
+
+if TYPE_CHECKING:
+    from loiter.fences import model
+    from loiter.fences import places as placed
+else:
+    model, placed = LazyModule("loiter.fences.model"), LazyModule("loiter.fences.places")
 
 # The versions of QGroundControl's fence, and of its circles and polygons.
 FENCE_VERSION, AREA_VERSION = 2, 1
@@ -42,7 +47,7 @@ INCLUSIONS = {FenceCommand.POLYGON_INCLUSION, FenceCommand.CIRCLE_INCLUSION}
 Fault = Callable[[str], LoiterError]
 
 
-def read_fence(path: str | Path, argument: str = "fence") -> PlacedFence:
+def read_fence(path: str | Path, argument: str = "fence") -> placed.PlacedFence:
     """The fence in a file: QGroundControl's .plan, `QGC WPL 110` with fence items, or latitudes and longitudes.
 
     The last is ArduPilot's old format: a return point, and then the corners of one inclusion polygon, a line each.
@@ -62,13 +67,13 @@ def read_fence(path: str | Path, argument: str = "fence") -> PlacedFence:
         zones = [_listed_polygon(source, text)]
     if not zones:
         raise source.fault("it has no fence")
-    return PlacedFence(tuple(zones))
+    return placed.PlacedFence(tuple(zones))
 
 
 # QGroundControl's plan
 
 
-def plan_zones(source: Source, fence: Any) -> list[PlacedZone]:
+def plan_zones(source: Source, fence: Any) -> list[placed.PlacedZone]:
     """The zones of the geoFence of a plan; none where it has no fence. Raises `InvalidArgument`."""
     if fence is None:
         return []
@@ -79,7 +84,7 @@ def plan_zones(source: Source, fence: Any) -> list[PlacedZone]:
     return [*polygons, *circles]
 
 
-def fence_document(fence: PlacedFence) -> dict[str, Any]:
+def fence_document(fence: placed.PlacedFence) -> dict[str, Any]:
     """The geoFence of a plan for a fence: the counterpart of `plan_zones`. Corners are in clockwise order there."""
     circles = [
         {
@@ -88,7 +93,7 @@ def fence_document(fence: PlacedFence) -> dict[str, Any]:
             "version": AREA_VERSION,
         }
         for zone in fence.zones
-        if isinstance(zone, PlacedCircle)
+        if isinstance(zone, placed.PlacedCircle)
     ]
     polygons = [
         {
@@ -97,7 +102,7 @@ def fence_document(fence: PlacedFence) -> dict[str, Any]:
             "version": AREA_VERSION,
         }
         for zone in fence.zones
-        if isinstance(zone, PlacedPolygon)
+        if isinstance(zone, placed.PlacedPolygon)
     ]
     return {"circles": circles, "polygons": polygons, "version": FENCE_VERSION}
 
@@ -119,21 +124,21 @@ def _areas(source: Source, fence: dict[str, Any], name: str) -> Iterator[tuple[i
         yield number, area
 
 
-def _circle(source: Source, number: int, area: dict[str, Any]) -> PlacedCircle:
+def _circle(source: Source, number: int, area: dict[str, Any]) -> placed.PlacedCircle:
     where = f"geoFence: circle {number}"
     circle = qgcplan.kind(source, where, area.get("circle"), dict, "an object")
     latitude, longitude = _place(source, where, circle.get("center"))
     radius_m = _radius_m(qgcplan.number(source, f"{where}: radius", circle.get("radius")), where, source.fault)
-    return PlacedCircle(f"circle {number}", latitude, longitude, radius_m, _inclusion(source, where, area))
+    return placed.PlacedCircle(f"circle {number}", latitude, longitude, radius_m, _inclusion(source, where, area))
 
 
-def _polygon(source: Source, number: int, area: dict[str, Any]) -> PlacedPolygon:
+def _polygon(source: Source, number: int, area: dict[str, Any]) -> placed.PlacedPolygon:
     where = f"geoFence: polygon {number}"
     corners = qgcplan.kind(source, where, area.get("polygon"), list, "a list of corners")
-    if len(corners) < LEAST_CORNERS:
-        raise source.fault(f"{where}: it has {len(corners)} corners: it needs {LEAST_CORNERS} at least")
+    if len(corners) < model.LEAST_CORNERS:
+        raise source.fault(f"{where}: it has {len(corners)} corners: it needs {model.LEAST_CORNERS} at least")
     places = tuple(_place(source, where, corner) for corner in corners)
-    return PlacedPolygon(f"polygon {number}", places, _inclusion(source, where, area))
+    return placed.PlacedPolygon(f"polygon {number}", places, _inclusion(source, where, area))
 
 
 def _place(source: Source, where: str, value: Any) -> tuple[float, float]:
@@ -150,7 +155,7 @@ def _inclusion(source: Source, where: str, area: dict[str, Any]) -> bool:
 # Fence items
 
 
-def zones_of(items: Iterable[tuple[str, MissionItem]], fault: Fault) -> Iterator[PlacedZone]:
+def zones_of(items: Iterable[tuple[str, MissionItem]], fault: Fault) -> Iterator[placed.PlacedZone]:
     """The zones of fence items, each with its place in the file or on the vehicle; the return point is passed over.
 
     Raises what `fault` makes of a sentence for a polygon whose number of corners is not that of its items.
@@ -163,13 +168,13 @@ def zones_of(items: Iterable[tuple[str, MissionItem]], fault: Fault) -> Iterator
             circles += 1
             radius_m = _radius_m(item.params[0], where, fault)
             inclusion = item.command in INCLUSIONS
-            yield PlacedCircle(f"circle {circles}", item.latitude_deg, item.longitude_deg, radius_m, inclusion)
+            yield placed.PlacedCircle(f"circle {circles}", item.latitude_deg, item.longitude_deg, radius_m, inclusion)
             left = left[1:]
         else:
             polygons += 1
             count = _corner_count(left, fault)
             places = tuple((corner.latitude_deg, corner.longitude_deg) for _, corner in left[:count])
-            yield PlacedPolygon(f"polygon {polygons}", places, item.command in INCLUSIONS)
+            yield placed.PlacedPolygon(f"polygon {polygons}", places, item.command in INCLUSIONS)
             left = left[count:]
 
 
@@ -179,8 +184,8 @@ def _corner_count(items: Sequence[tuple[str, MissionItem]], fault: Fault) -> int
     if first.command not in POLYGONS:
         raise fault(f"{where}: command {first.command} is no item of a fence")
     count = first.params[0]
-    if not count >= LEAST_CORNERS or count != int(count):
-        raise fault(f"{where}: a polygon has {count:g} corners: it needs {LEAST_CORNERS} at least")
+    if not count >= model.LEAST_CORNERS or count != int(count):
+        raise fault(f"{where}: a polygon has {count:g} corners: it needs {model.LEAST_CORNERS} at least")
     same = [item for _, item in items[: int(count)] if (item.command, item.params[0]) == (first.command, count)]
     if len(same) < count:
         raise fault(f"{where}: a polygon has {count:g} corners, and {len(same)} follow")
@@ -196,7 +201,7 @@ def _radius_m(radius_m: float, where: str, fault: Fault) -> float:
 # ArduPilot's list of latitudes and longitudes
 
 
-def _listed_polygon(source: Source, text: str) -> PlacedPolygon:
+def _listed_polygon(source: Source, text: str) -> placed.PlacedPolygon:
     """The polygon of a list of places: a return point, and then the corners, of which the last repeats the first."""
     lines = [(f"line {n}", line.split()) for n, line in enumerate(text.splitlines(), start=1)]
     rows = [(where, words) for where, words in lines if words and not words[0].startswith("#")]
@@ -205,9 +210,9 @@ def _listed_polygon(source: Source, text: str) -> PlacedPolygon:
             "it is neither a QGroundControl plan, nor QGC WPL 110, nor a list of latitudes and longitudes"
         )
     _return_point, *corners = [_listed_place(source, where, words) for where, words in rows]
-    if len(corners) < LEAST_CORNERS + 1 or corners[0] != corners[-1]:
+    if len(corners) < model.LEAST_CORNERS + 1 or corners[0] != corners[-1]:
         raise source.fault("after the return point, the corners must be 3 at least, and the first one again at the end")
-    return PlacedPolygon("polygon 1", tuple(corners[:-1]), inclusion=True)
+    return placed.PlacedPolygon("polygon 1", tuple(corners[:-1]), inclusion=True)
 
 
 def _listed_place(source: Source, where: str, words: Sequence[str]) -> tuple[float, float]:

@@ -4,16 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from loiter.errors import InvalidArgument, file_path
-from loiter.fences.places import PlacedFence
 from loiter.io.missions import qgcplan, signs
 from loiter.io.missions.fences import plan_zones
 from loiter.io.missions.items import Frame, MissionItem
 from loiter.io.missions.wpl import MARK, read_wpl
 from loiter.io.reading import Source
+from loiter.lazy import LazyModule
 from loiter.planning.model import Turn
+
+if TYPE_CHECKING:
+    from loiter import fences
+else:
+    fences = LazyModule("loiter.fences")
 
 
 class MissionCircle(NamedTuple):
@@ -38,7 +43,7 @@ class Site(NamedTuple):
 
     circles: tuple[MissionCircle, ...]
     home: tuple[float, float, float]
-    fence: PlacedFence | None = None
+    fence: fences.PlacedFence | None = None
     fence_document: dict[str, Any] | None = None
 
 
@@ -59,7 +64,7 @@ def read_site(path: str | Path, argument: str = "mission") -> Site:
     fence_document = document.get("geoFence")
     zones = plan_zones(source, fence_document)
     circles = tuple(_circles(qgcplan.simple_items(source, document)))
-    fence = PlacedFence(tuple(zones)) if zones else None
+    fence = fences.PlacedFence(tuple(zones)) if zones else None
     return Site(circles, qgcplan.read_home(source, document), fence, fence_document)
 
 
