@@ -92,7 +92,7 @@ BAD_SHAPES = [
     (plan(speed="18"), ["--speed"]),
     ([*plan(), "--quiet"], ["--quiet"]),
     ([*plan(), "extra"], ["extra"]),
-    (["hover"], ["hover", "plan", "guide"]),
+    (["hover"], ["hover", "plan", "upload"]),
     (["plna"], ["plna", "plan"]),
     (["--nope"], ["--nope"]),
 ]

@@ -91,6 +91,7 @@ STAGES = {
         tests("verify", "certificate_in_wind certificate bounds"),
         [*tests("cli", "certify"), "docs/theory.md", "docs/wind.md"],
     ),
+    "evidence/proof/": (tests("evidence", "proof signs rounding"),),
     "evidence/": (
         tests("evidence", "precision wind_scan oracle_check"),
         [*tests("cli", "verify"), *tests("evidence", "reachability collocation")],

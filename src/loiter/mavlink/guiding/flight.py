@@ -349,11 +349,10 @@ class GuidedFlight:
         lost = bool(self._monitor.silent(monotonic()))
         if mode not in (GUIDED, OFFBOARD, HOLD) or not self._accepted:
             return f"{contact.name} {'was last seen' if lost else 'flies'} in {self._modes.name}"
-        # In OFFBOARD the place that PX4 reports is that of our last setpoint.
-        elsewhere = "" if mode == OFFBOARD else self._observe_elsewhere()
+        elsewhere = self._observe_elsewhere()
         if elsewhere:
             return f"{contact.name} flies in {self._modes.name} {elsewhere}"
-        if self._steered and (mode == OFFBOARD or self._modes.mode == GUIDED):
+        if self._steered and self._modes.mode in (GUIDED, OFFBOARD):
             return loss_consequence(contact, self._setup)
         if elsewhere is None and self._modes.mode == HOLD and self._steered:
             return f"{contact.name} flies in {self._modes.name} and does not report where"
@@ -362,14 +361,19 @@ class GuidedFlight:
     def _observe_elsewhere(self) -> str | None:
         """Where the vehicle flies by its own guidance, in words; "" on the circle, None if it does not report that.
 
-        Listens for a while, if the link is alive; nothing is commanded.
+        Listens for a while, if the link is alive; nothing is commanded. What PX4 reports in OFFBOARD does not count: it
+        is the place of our last setpoint.
         """
-        contact, now = self._contact, monotonic()
-        began, target = now, contact.own_target
+        contact, now, is_offboard = self._contact, monotonic(), self._modes.mode == OFFBOARD
+        deadline, oldest, target = now + OBSERVE_S, now if is_offboard else now - RECENT_S, contact.own_target
+        began = now
         with suppress(LinkFailed):
-            while target.arrived < began and now < began + OBSERVE_S and not self._monitor.silent(now):
+            while (is_offboard or target.arrived < began) and now < deadline and not self._monitor.silent(now):
                 now = contact.listen()
-        if target.arrived < began - RECENT_S:
+                is_offboard = self._modes.mode == OFFBOARD
+                if is_offboard:
+                    began = oldest = now
+        if is_offboard or target.arrived < oldest:
             return None
         return target.difference(self.orbit, self._setup.altitude_m)
 
