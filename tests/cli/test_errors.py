@@ -92,7 +92,7 @@ BAD_SHAPES = [
     (plan(speed="18"), ["--speed"]),
     ([*plan(), "--quiet"], ["--quiet"]),
     ([*plan(), "extra"], ["extra"]),
-    (["hover"], ["hover", "plan", "upload"]),
+    (["hover"], ["hover", "plan", "guide"]),
     (["plna"], ["plna", "plan"]),
     (["--nope"], ["--nope"]),
 ]

@@ -263,8 +263,8 @@ def test_a_pilot_who_moves_the_joystick_of_a_ground_station_is_left_alone_by_px4
     (east, north), *_ = outcome.vehicle.hold_circle
     off_m = math.hypot(east - ORBIT.east_m, north - ORBIT.north_m)
     assert outcome.end == (
-        "the pilot moves a stick: guiding has stopped, nothing more is sent, and system 1 (PX4) flies in AUTO.LOITER to "
-        f"a place {off_m:.0f} m from the centre of the circle"
+        "the pilot moves a stick: guiding has stopped, nothing more is sent, and system 1 (PX4) flies in AUTO.LOITER "
+        f"to a place {off_m:.0f} m from the centre of the circle"
     )
     assert max(outcome.vehicle.heard_at) < JOINING_S + 1.5
 

@@ -1,7 +1,7 @@
 """The commands, and `main`, which turns errors into one sentence and an exit status."""
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, Literal
 
 from cyclopts import App, CycloptsError, Group, Parameter
@@ -101,13 +101,23 @@ Before the first command a summary shows what is taken over and what happens if 
         },
     ),
 )
-for group, commands in COMMANDS:
-    for order, (target, text) in enumerate(commands.items()):
-        command = target.partition(":")[2]
-        # The module of a command is imported when it runs.
-        place = f"loiter.cli.commands.{target}"
-        usage = "Usage: loiter upload --connect LINK [OPTIONS] [FILE]" if command == "upload" else None
-        app.command(place, group=group, sort_key=order, usage=usage, help_epilogue=epilogue(command), help=text)
+# An unknown command is answered with the first eight that are added: the simulator and the service come after them.
+LISTED_LATER = ("fly", "serve")
+
+
+def add_commands(names: Callable[[str], bool]) -> None:
+    """Add the commands with these names; the module of a command is imported when it runs."""
+    for group, commands in COMMANDS:
+        for order, (target, text) in enumerate(commands.items()):
+            name = target.partition(":")[2]
+            if names(name):
+                place = f"loiter.cli.commands.{target}"
+                usage = "Usage: loiter upload --connect LINK [OPTIONS] [FILE]" if name == "upload" else None
+                app.command(place, group=group, sort_key=order, usage=usage, help_epilogue=epilogue(name), help=text)
+
+
+add_commands(lambda name: name not in LISTED_LATER)
+add_commands(lambda name: name in LISTED_LATER)
 
 
 @app.command(help_epilogue=epilogue("completion"))

@@ -26,7 +26,7 @@ LARGEST_SKEW_S = 0.5
 # The share of the declared airspeed below which a measured one is wrong.
 LEAST_SHARE = 0.4
 
-# The time constant of the filter of ArduPlane's airspeed, seconds, and the gap after which a new beginning is made.
+# The time constant of the filter of ArduPlane's airspeed, seconds, and the gap after which it starts anew.
 AIRSPEED_LAG_S, LONGEST_GAP_S = 0.3, 1.0
 
 # A position that differs from the dead reckoned one by more than this, metres, plus this share of the distance flown
