@@ -353,6 +353,8 @@ class OffboardPx4(Flyer, Vehicle):
         "FW_R_TC": (0.4, 9),
         "FW_R_RMAX": (70.0, 9),
         "FW_PN_R_SLEW_MAX": (90.0, 9),
+        "NPFG_PERIOD": (10.0, 9),
+        "NPFG_DAMPING": (0.7, 9),
         "COM_OF_LOSS_T": (1.0, 9),
         "COM_OBL_RC_ACT": (5, 6),
         "GF_ACTION": (2, 6),

@@ -504,8 +504,9 @@ class Windy:
             super().stream(number, now)
 
 
-def test_in_wind_arduplane_is_handed_over_to_a_displaced_circle():
-    class Blown(Windy, GuidedPlane):
+@pytest.mark.parametrize("kind", KINDS)
+def test_in_wind_a_vehicle_is_handed_over_to_a_displaced_circle(kind):
+    class Blown(Windy, kind):
         pass
 
     vehicle = Blown()

@@ -18,6 +18,7 @@ from loiter.batch.tables.flight_logs import read_parquet, to_parquet
 from loiter.cli.app import main
 from loiter.errors import InvalidArgument, RadiusTooSmall, WindTooStrong
 from loiter.geo import LocalFrame
+from loiter.geo.atmosphere import true_airspeed
 from loiter.guidance.circle import circle_offset
 from loiter.guidance.protocol import State
 from loiter.guidance.rivals.l1 import circle_demand
@@ -671,6 +672,63 @@ def test_in_wind_the_circle_that_is_sent_is_flown_as_ours(turn, wind, ratio, set
     assert harmonic_m < 0.35 * whole_harmonic_m
     assert f"centre {sent.displaced_m:.1f} m towards" in sent.remark(orbit)
     assert sent_circle(orbit, 100.0, known, estimates(ratio, airspeed=23.0)).remark(orbit) == ""
+
+
+def drift_heading(bearing, wind, airspeed):
+    """The heading, radians, with which PX4 flies a bearing in a wind (east, north) at an airspeed."""
+    across = wind[0] * math.cos(bearing) - wind[1] * math.sin(bearing)
+    return bearing - math.asin(across / airspeed)
+
+
+def px4_offsets_m(circle, turn, wind, eas2tas):
+    """The most metres beside (0, 0, 60), and the first harmonic, in the second turn by PX4's guidance (NPFG).
+
+    At 15.4 m/s the aircraft banks 0.2 s late and with a time constant of 0.3 s.
+    """
+    side, dt, V, g = 1.0 if turn == "cw" else -1.0, 0.02, 15.4, 9.80665
+    x, y, heading = 0.0, 60.0, drift_heading(side * math.pi / 2.0, wind, V)
+    gain, bound_s = 4.0 * math.pi * 0.7 / 10.0, 0.7 * 10.0
+    bank = side * math.atan(V * V / 60.0 / g)
+    late, swept, rows = [bank] * 10, 0.0, []
+    while swept < 4.0 * math.pi:
+        ve, vn = V * math.sin(heading) + wind[0], V * math.cos(heading) + wind[1]
+        east, north = x - circle.east_m, y - circle.north_m
+        distance, azimuth = math.hypot(east, north), math.atan2(east, north)
+        outside, tangent = distance - circle.radius_m, azimuth + side * math.pi / 2.0
+        share = min(abs(outside) / (math.hypot(ve, vn) * bound_s), 1.0)
+        # The look-ahead angle is a quarter turn on the circle and 0 beyond the bound.
+        inward = math.copysign(math.pi / 2.0 * (1.0 - (1.0 - share) ** 2), outside)
+        wanted = drift_heading(tangent + side * inward, wind, V / eas2tas)
+        along = wind[0] * math.sin(tangent) + wind[1] * math.cos(tangent)
+        across = wind[0] * math.cos(tangent) - wind[1] * math.sin(tangent)
+        ground = ve * math.sin(tangent) + vn * math.cos(tangent)
+        forward = V * (1.0 + along / math.sqrt(V * V - across * across)) * ground / distance * math.cos(inward) ** 2
+        late.append(math.atan((gain * V * math.sin(wanted - heading) + side * forward) / g))
+        bank += dt / 0.3 * (late.pop(0) - bank)
+        heading += dt * g * math.tan(bank) / V
+        before, x, y = math.atan2(x, y), x + dt * ve, y + dt * vn
+        swept += abs(math.remainder(math.atan2(x, y) - before, 2.0 * math.pi))
+        if swept > 2.0 * math.pi:
+            rows.append((math.hypot(x, y) - 60.0, math.atan2(x, y)))
+    outside_m, azimuth = np.array(rows).T
+    return max(abs(outside_m)), 2.0 * abs(np.mean(outside_m * np.exp(1j * azimuth)))
+
+
+@pytest.mark.parametrize("turn", ["cw", "ccw"])
+@pytest.mark.parametrize("wind", [(6.0, 0.0), (-3.0, -5.0), (0.0, -6.0)])
+@pytest.mark.parametrize("altitude_m", [0.0, 600.0])
+def test_in_wind_the_circle_that_is_sent_to_px4_is_flown_as_ours(turn, wind, altitude_m):
+    orbit, found = Orbit(0.0, 0.0, 60.0, turn), estimates(1.0, wind, 15.4)
+    found.roll = Roll(0.3, 80.0)
+    sent = sent_circle(orbit, altitude_m, {"NPFG_PERIOD": 10.0, "NPFG_DAMPING": 0.7}, found)
+    eas2tas = true_airspeed(1.0, altitude_m)
+    most_m, harmonic_m = px4_offsets_m(sent, turn, wind, eas2tas)
+    without_m, whole_harmonic_m = px4_offsets_m(sent._replace(east_m=0.0, north_m=0.0), turn, wind, eas2tas)
+    assert sent.radius_m == 60.0
+    assert most_m < 0.8 * without_m
+    assert harmonic_m < 0.4 * whole_harmonic_m
+    assert f"centre {sent.displaced_m:.1f} m towards" in sent.remark(orbit)
+    assert sent_circle(orbit, altitude_m, {}, found) == SentCircle(0.0, 0.0, 60.0)
 
 
 def test_a_filtered_airspeed_is_put_right_where_it_changes():

@@ -71,6 +71,8 @@ PARAMETERS: dict[Autopilot, dict[tuple[str, ...], Need]] = {
         ("FW_R_TC",): Need.WANTED,
         ("FW_R_RMAX",): Need.WANTED,
         ("FW_PN_R_SLEW_MAX",): Need.OPTIONAL,
+        ("NPFG_PERIOD",): Need.OPTIONAL,
+        ("NPFG_DAMPING",): Need.OPTIONAL,
         ("COM_OBL_RC_ACT",): Need.WANTED,
         ("GF_ACTION",): Need.WANTED,
         ("RC_MAP_ROLL",): Need.WANTED,

@@ -18,10 +18,11 @@ from __future__ import annotations
 
 from cmath import exp, phase
 from dataclasses import replace
-from math import atan, atan2, cos, degrees, hypot, pi, radians, sin, tan
+from math import atan, atan2, cos, degrees, hypot, pi, radians, sin, sqrt, tan
 from typing import NamedTuple
 
 from loiter.errors import LoiterError
+from loiter.geo.atmosphere import eas2tas_squared
 from loiter.guidance.circle import circle_offset
 from loiter.guidance.protocol import State
 from loiter.guidance.vehicle import VehicleEstimates, clip
@@ -30,8 +31,10 @@ from loiter.mavlink.missions.flown_radius import loiter_scaling
 from loiter.planning.hold import hold
 from loiter.planning.model import Aircraft, Orbit, sign_of, wind_from_velocity
 
-# ArduPlane's parameters for the period of its guidance, seconds, and its damping, with the default of the latter.
+# The parameters of ArduPlane and PX4 for the period of their guidance, seconds, and its damping, with the default of
+# the latter.
 PERIOD, DAMPING, DEFAULT_DAMPING = "NAVL1_PERIOD", "NAVL1_DAMPING", 0.75
+PX4_PERIOD, PX4_DAMPING, PX4_DEFAULT_DAMPING = "NPFG_PERIOD", "NPFG_DAMPING", 0.7
 
 # The largest shares of the radius by which it is corrected and by which the centre is displaced, and how far below 1 a
 # turn ratio is noise, as any above 1 is: upwind, where banks are small, an error of a degree is 15 %.
@@ -52,6 +55,17 @@ KEPT_S = 3.0
 # A course error at the end of that time counts as the offset to which it leads within this time, seconds. The turn rate
 # is corrected by this share at most.
 RECOVERY_S, LARGEST_CORRECTION = 2.0, 0.3
+
+
+class Guidance(NamedTuple):
+    """An autopilot's guidance on a circle: its natural frequency, radians per second, and its damping."""
+
+    omega: float
+    damping: float
+
+    def stiffness(self, rate: complex) -> complex:
+        """The acceleration, m/s^2, that is demanded for each metre outside which changes at a complex rate, 1/s."""
+        return self.omega * (self.omega + 2.0 * self.damping * rate)
 
 
 class SentCircle(NamedTuple):
@@ -82,15 +96,16 @@ def sent_circle(
     whole metres of radius.
     """
     scaling, radius_m = loiter_scaling(parameters), orbit.radius_m
+    guidance = _guidance(parameters)
+    if guidance is None or estimates is None:
+        sent_m = radius_m if scaling is None else scaling.sent_whole_m(radius_m, altitude_m)
+        return SentCircle(orbit.east_m, orbit.north_m, sent_m)
     if scaling is None:
-        return SentCircle(orbit.east_m, orbit.north_m, radius_m)
-    period_s = parameters.get(PERIOD, 0.0)
-    if estimates is None or period_s <= 0.0:
-        return SentCircle(orbit.east_m, orbit.north_m, scaling.sent_whole_m(radius_m, altitude_m))
-    omega = 2.0 * pi / period_s
-    error_m = _acceleration_deficit(radius_m, estimates) / (omega * omega)
-    sent_m = scaling.sent_whole_m(radius_m - clip(error_m, LARGEST_SHARE * radius_m), altitude_m)
-    offset_m = _first_harmonic(radius_m, omega, parameters.get(DAMPING, DEFAULT_DAMPING), estimates)
+        sent_m, offset_m = radius_m, _px4_harmonic(radius_m, altitude_m, guidance, estimates)
+    else:
+        error_m = _acceleration_deficit(radius_m, estimates) / guidance.stiffness(0.0).real
+        sent_m = scaling.sent_whole_m(radius_m - clip(error_m, LARGEST_SHARE * radius_m), altitude_m)
+        offset_m = _first_harmonic(radius_m, guidance, estimates)
     displaced_m = min(abs(offset_m), LARGEST_DISPLACEMENT * radius_m)
     # The bearing from the centre at which the aircraft flies with the wind, and of the largest offset before it.
     side = sign_of(orbit.turn)
@@ -99,6 +114,15 @@ def sent_circle(
     return SentCircle(
         orbit.east_m - displaced_m * sin(outside), orbit.north_m - displaced_m * cos(outside), sent_m, displaced_m
     )
+
+
+def _guidance(parameters: dict[str, float]) -> Guidance | None:
+    """The guidance of ArduPlane or PX4 on a circle, by its parameters; None if they are not known."""
+    names = (PERIOD, DAMPING, DEFAULT_DAMPING), (PX4_PERIOD, PX4_DAMPING, PX4_DEFAULT_DAMPING)
+    for period, damping, default in names:
+        if (period_s := parameters.get(period, 0.0)) > 0.0:
+            return Guidance(2.0 * pi / period_s, parameters.get(damping, default))
+    return None
 
 
 def last_bank_deg(
@@ -150,14 +174,31 @@ def _acceleration_deficit(radius_m: float, estimates: VehicleEstimates) -> float
     return DOWNWIND_SHARE * (downwind * downwind - V * V) / radius_m
 
 
-def _first_harmonic(radius_m: float, omega: float, damping: float, estimates: VehicleEstimates) -> complex:
+def _first_harmonic(radius_m: float, guidance: Guidance, estimates: VehicleEstimates) -> complex:
     """The complex amplitude of the offset of ArduPlane's own circle in wind, metres, about the downwind point."""
-    V, wind = estimates.airspeed_m_s, hypot(estimates.wind_east_m_s, estimates.wind_north_m_s)
-    rate = 1j * V / radius_m
+    rate, change = _wind_demand(radius_m, estimates)
     ratio, settling = estimates.turn_ratio, 0.0
     if ratio >= 1.0 - COORDINATED:
         ratio, settling = SETTLED_RATIO, SETTLING_SHARE
-    late = exp(-rate * (estimates.delay_s + estimates.roll.time_s))
-    turned = ratio * (1.0 - settling + settling / (1.0 + rate * SETTLING_S)) * late
-    stiffness = turned * (omega * omega + 2.0 * damping * omega * rate) + rate * rate
-    return (1.0 - turned) * 2.0 * V * wind / (radius_m * stiffness)
+    turned = ratio * (1.0 - settling + settling / (1.0 + rate * SETTLING_S)) * _lateness(rate, estimates)
+    return (1.0 - turned) * change / (turned * guidance.stiffness(rate) + rate * rate)
+
+
+def _px4_harmonic(radius_m: float, altitude_m: float, guidance: Guidance, estimates: VehicleEstimates) -> complex:
+    """The complex amplitude of the offset of PX4's own circle in wind, metres, about the downwind point."""
+    rate, change = _wind_demand(radius_m, estimates)
+    turned = _lateness(rate, estimates)
+    wind = hypot(estimates.wind_east_m_s, estimates.wind_north_m_s)
+    drift = 2.0 * guidance.damping * guidance.omega * wind * (sqrt(eas2tas_squared(altitude_m)) - 1.0)
+    return ((1.0 - turned) * change + 1j * turned * drift) / (turned * guidance.stiffness(rate) + rate * rate)
+
+
+def _wind_demand(radius_m: float, estimates: VehicleEstimates) -> tuple[complex, float]:
+    """The complex angular rate of a circle, 1/s, and the first harmonic of v^2/r, m/s^2."""
+    wind = hypot(estimates.wind_east_m_s, estimates.wind_north_m_s)
+    return 1j * estimates.airspeed_m_s / radius_m, 2.0 * estimates.airspeed_m_s * wind / radius_m
+
+
+def _lateness(rate: complex, estimates: VehicleEstimates) -> complex:
+    """The factor of a turn at a complex rate, 1/s, that is flown late by the delay and the roll."""
+    return exp(-rate * (estimates.delay_s + estimates.roll.time_s))
