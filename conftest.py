@@ -27,7 +27,7 @@ SLOW = {
     "compiled": "ufuncs wind_solver",
     "documents": "notebooks package site",
     "evidence": "collocation formal oracle_check proof reachability rounding signs wind_scan",
-    "guidance": "campaign following identification jsbsim_aircraft law_in_javascript loiter_entry",
+    "guidance": "campaign following identification jsbsim_aircraft law_in_javascript loiter_entry slew",
     "kernel": "cell_bounds wind_search",
     "mavlink": "guide guide_misbehaving mavproxy peers upload watch",
     "mutation": "mutation",
@@ -40,7 +40,12 @@ SLOW = {
 }
 
 # Tests that share a library which a helper of theirs compiles once in each process.
-FLIGHTS_IN_C = ("guidance/test_biased.py", "guidance/test_flights_in_c.py", "guidance/test_identification.py")
+FLIGHTS_IN_C = (
+    "guidance/test_biased.py",
+    "guidance/test_flights_in_c.py",
+    "guidance/test_identification.py",
+    "guidance/test_slew.py",
+)
 ONBOARD = ("native/test_onboard.py", "native/test_onboard_identification.py")
 SLOTS_IN_C = ("guidance/test_slot_entry.py",)
 

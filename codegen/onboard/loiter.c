@@ -85,6 +85,7 @@ loiter_law_config loiter_law_defaults(loiter_real airspeed_m_s, loiter_real bank
     config.bank_limit_deg = bank_limit_deg;
     config.roll_time_s = @ROLL_TIME@;
     config.roll_rate_deg_s = @ROLL_RATE@;
+    config.roll_slew_deg_s = REAL_INFINITY;
     config.delay_s = @DELAY@;
     config.wind_east_m_s = config.wind_north_m_s = REAL(0.0);
     config.reserve = @RESERVE@;
@@ -114,6 +115,7 @@ static int status_of_config(const loiter_law_config *c) {
         return LOITER_BAD_TURN;
     }
     if (!is_within(c->roll_time_s, REAL(0.0), MOST) || !(c->roll_rate_deg_s >= LEAST_ROLL_RATE) ||
+        !(c->roll_slew_deg_s >= LEAST_ROLL_RATE) ||
         !is_within(c->delay_s, REAL(0.0), MOST) || !is_within(c->reserve, REAL(0.0), MOST) ||
         !is_within(c->smoothing_s, REAL(0.0), MOST) || !(c->gain > REAL(0.0)) || !(c->gain <= MOST) || c->search_steps < 0) {
         return LOITER_BAD_RESPONSE;
@@ -138,7 +140,7 @@ int loiter_law_begin(loiter_law *law, const loiter_law_config *c) {
     if (status != LOITER_OK) {
         return status;
     }
-    const RollValues roll = {c->roll_time_s, c->roll_rate_deg_s, REAL(0.0)};
+    const RollValues roll = {c->roll_time_s, c->roll_rate_deg_s, REAL(0.0), c->roll_slew_deg_s};
     const VehicleEstimates declared = {roll,
                                        c->delay_s,
                                        REAL(1.0),

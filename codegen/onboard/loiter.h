@@ -105,6 +105,9 @@ typedef struct {
     /* The roll response, a first-order lag with a limited rate, and the delay between a command and the first
      * measurement that shows it. */
     loiter_real roll_time_s, roll_rate_deg_s, delay_s;
+    /* By how much the command may change in a second, at most; infinite by default. Where the autopilot limits the rate
+     * of its bank setpoint, as PX4 does (FW_PN_R_SLEW_MAX), give that limit, degrees per second. */
+    loiter_real roll_slew_deg_s;
     /* The velocity of the air towards the east and the north: positive east for a wind from the west. 0 where none is
      * known. */
     loiter_real wind_east_m_s, wind_north_m_s;

@@ -2,7 +2,7 @@
 --
 -- Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
 --
--- SHA-256 of the source: d03fa7f75beb37d93da0b530dc9487a16e57cb7b71570c7b0aa8fb82f9049ea7
+-- SHA-256 of the source: d6232fd15407945d01c33174a852c10b33afe8c9da1ea4424f5c645c516b1eae
 --
 -- When a switch asks for it, this script flies a plane onto the holding circle around its present target in least
 -- time, and then leaves the circle to ArduPlane: loiter_entry.md. It works by GUIDED_CHANGE_HEADING in GUIDED: the target
@@ -192,7 +192,7 @@ law.CALM_ALONG = {near_square = 0.0, far_square = 0.0, known_s = 3.0}
 -- this, seconds, are left out.
 -- SAMPLES = 64
 law.NO_ESTIMATE = {time_s = -huge, pose = {x = 0.0, y = 0.0, c = 1.0, s = 0.0}, airspeed_m_s = 0.0, turn_rate = 0.0, bank_deg = 0.0, air_east_m_s = 0.0, air_north_m_s = 0.0, turning = {ratio = 1.0, lead_s = 0.0}}
-law.NO_LIMITS = {revision = -1, wind_differs = false, wind_east_m_s = 0.0, wind_north_m_s = 0.0, roll = {time_s = 0.0, rate_deg_s = 0.0, lag_s = 0.0}, limit_deg = 0.0, turns = {airspeed_m_s = 1.0, tightest_m = 1.0, planned_m = 1.0}, hold_deg = 0.0, hold_half_deg = 0, planned_half_deg = 0, lead_s = 0.0, reversal_s2 = 0.0, reversal_m = 0.0, lag_s = 0.0}
+law.NO_LIMITS = {revision = -1, wind_differs = false, wind_east_m_s = 0.0, wind_north_m_s = 0.0, roll = {time_s = 0.0, rate_deg_s = 0.0, lag_s = 0.0, slew_deg_s = 0.0}, limit_deg = 0.0, turns = {airspeed_m_s = 1.0, tightest_m = 1.0, planned_m = 1.0}, hold_deg = 0.0, hold_half_deg = 0, planned_half_deg = 0, lead_s = 0.0, reversal_s2 = 0.0, reversal_m = 0.0, lag_s = 0.0}
 
 -- The wind is planned as estimated, not as declared, where they differ by the first share of the airspeed, until
 -- they differ by less than the second.
@@ -251,7 +251,7 @@ law.NO_PLAN = {route = {side = 0, current = {u = -2, x = 0.0, y = 0.0, c = 1.0, 
 
 -- The control of a piece that the word does not have.
 -- ABSENT = -2
-law.NO_LEADS = {bank = -1000000000, rate = 0, current = 0, next = 0, last = 0, current_s = 0.0, more = 0.0, next_s = 0.0, last_s = 0.0, displaced_s2 = 0.0}
+law.NO_LEADS = {bank = -1000000000, rate = 0, command = 0, current = 0, next = 0, last = 0, current_s = 0.0, more = 0.0, next_s = 0.0, last_s = 0.0, displaced_s2 = 0.0}
 law.NO_RESPONSE = {state = {time_s = 0.0, x = 0.0, y = 0.0, vx = 0.0, vy = 0.0, hx = 0.0, hy = 0.0}, offset = {crosstrack = 0.0, course_error = 0.0, path_rate = 0.0}, early_s = 0.0}
 law.NO_ENTRY_SEARCH = {aim = 0, state = {time_s = 0.0, x = 0.0, y = 0.0, vx = 0.0, vy = 0.0, hx = 0.0, hy = 0.0}, turns = {airspeed_m_s = 1.0, tightest_m = 1.0, planned_m = 1.0}, wind_east_m_s = 0.0, wind_north_m_s = 0.0, radius_m = 1.0, wide_m = 1.0, side = 0, reversing = false, is_second = false, is_begun = false, in_air = {stage = 0, sides = 0, side = 1, scene = {x = 0.0, y = 0.0, c = 1.0, s = 0.0, R = 1.0, wx = 0.0, wy = 0.0, arc_tolerance = 0.0}, best = {phase = 0.0, side = 0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}}, beside = {entry = {side = 0, word = 0, t1 = huge, t2 = 0.0, t3 = 0.0}, phase = 0.0, miss = huge}, visit = {number = 0, level = 0, words = 63}, before = {number = -2, point = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}}, leaves = {first = 0, second = 0, third = 0, fourth = 0}, others = {first = 0, second = 0, third = 0, fourth = 0}, corner = {phase = 0.0, u = 0, t1 = 0.0, t2 = 0.0}, compared = huge, visits = 0, refinement = {stage = 0, side = 0, width = 0.0, here = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}, other = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}, last = {phase = 0.0, path = {time = huge, word = 0, t1 = 0.0, t2 = 0.0, t3 = 0.0, lam = 1.0, p1 = 1.0, p2 = 0.0}, slope = 0.0}, words = 0, bisect = false, steps = 0, enclosures = 0}, cell = {words = 0, earliest = 0.0, tolerance = 0.0}, left = 0, entry = {status = 12, side = 0, word = 0, t1 = (0.0 / 0.0), t2 = (0.0 / 0.0), t3 = (0.0 / 0.0), azimuth = (0.0 / 0.0), miss = (0.0 / 0.0)}}}
 
@@ -529,8 +529,8 @@ end
 -- What is known before the first measurement, at a bank.
 function law.first_sensing(smoothing_s, bank_deg)
     return {clock = law.FIRST_CLOCK, observer = law.first_observer(smoothing_s), history =
-            law.constant_history(bank_deg), present = law.NO_ESTIMATE, bank_rate_deg_s = 0.0, elapsed_s = 0.0,
-            model_error_deg = 0.0, is_known = false}
+            law.constant_history(bank_deg), command_deg = bank_deg, present = law.NO_ESTIMATE, bank_rate_deg_s =
+            0.0, elapsed_s = 0.0, model_error_deg = 0.0, is_known = false}
 end
 
 -- The length of a vector whose square neither overflows nor underflows.
@@ -600,6 +600,7 @@ function law.is_changed(roll, before)
     local time_s, lag_s = before.time_s, before.lag_s
     return abs(roll.time_s - time_s) > 0.01--[[ROLL_CHANGED]] * time_s or abs(roll.rate_deg_s - before.rate_deg_s) >
             0.01--[[ROLL_CHANGED]] * before.rate_deg_s or abs(roll.lag_s - lag_s) > 0.01--[[ROLL_CHANGED]] * time_s
+            or roll.slew_deg_s ~= before.slew_deg_s
 end
 
 -- Radius of a coordinated turn, metres: V^2 / (g tan bank).
@@ -613,8 +614,11 @@ function law.half_degrees(bank_deg)
 end
 
 -- How many times the change of bank that is wanted is commanded.
-function law.command_gain(roll_time_s)
-    return min(max(roll_time_s / 0.15--[[QUICKEST_S]], 1.0), 2.5--[[COMMAND_GAIN]])
+--
+-- With more than the last number the command would have to return to the target faster than its slew rate.
+function law.command_gain(roll)
+    return min(max(roll.time_s / 0.15--[[QUICKEST_S]], 1.0), 2.5--[[COMMAND_GAIN]], 1.0 + roll.slew_deg_s /
+            roll.rate_deg_s)
 end
 
 -- By how much less is commanded for each degree per second of the bank rate, seconds.
@@ -622,13 +626,12 @@ end
 -- With the gain K the bank then obeys tau lag bank'' + (tau + this) bank' + K (bank - target) = 0, with the damping
 -- `DAMPING` at least. It is 0 without a lag.
 function law.rate_gain_s(roll)
-    return max(2.0 * 0.8--[[DAMPING]] * sqrt(law.command_gain(roll.time_s) * roll.time_s * roll.lag_s) -
-            roll.time_s, 0.0)
+    return max(2.0 * 0.8--[[DAMPING]] * sqrt(law.command_gain(roll) * roll.time_s * roll.lag_s) - roll.time_s, 0.0)
 end
 
 -- When a small change of bank takes effect.
 function law.small_onset(roll)
-    local gain = law.command_gain(roll.time_s)
+    local gain = law.command_gain(roll)
     local first_s = (roll.time_s + law.rate_gain_s(roll)) / gain
     return {lead_s = first_s, variance_s2 = max(first_s * first_s - 2.0 * roll.time_s * roll.lag_s / gain, 0.0)}
 end
@@ -641,7 +644,7 @@ end
 -- which the parts of the change take effect, and the squares of these times, are summed over these three ranges by
 -- Gauss's rules.
 function law.first_order_delay(roll, bank_deg, target_deg, limit_deg)
-    local tau, p, gain, m = roll.time_s, roll.rate_deg_s, law.command_gain(roll.time_s), abs(target_deg - bank_deg)
+    local tau, p, gain, m = roll.time_s, roll.rate_deg_s, law.command_gain(roll), abs(target_deg - bank_deg)
     local last_s, change = tau / gain, tan(target_deg * 0.017453292519943295) - tan(bank_deg * 0.017453292519943295)
     local g = max(limit_deg - (target_deg >= bank_deg and target_deg or -target_deg), 0.0)
     -- The missing bank below which a demand is within the bank limit, and that at which the rate leaves its limit.
@@ -707,7 +710,7 @@ end
 
 -- The largest change of bank that counts as infinitely small: its rate is not limited.
 function law.small_change_deg(roll)
-    return min(5.0--[[SMALL_CHANGE_DEG]], roll.rate_deg_s * roll.time_s / law.command_gain(roll.time_s))
+    return min(5.0--[[SMALL_CHANGE_DEG]], roll.rate_deg_s * roll.time_s / law.command_gain(roll))
 end
 
 -- `value`, limited to the range from -`limit` to `limit`.
@@ -718,18 +721,59 @@ end
 
 -- The step of a time above 0.
 function law.roll_step(roll, time_s)
+    if roll.lag_s == 0.0 then
+        return {time_s = time_s, kept = 0.0, share = 0.0}
+    end
     local kept, lags = exp(-time_s / roll.lag_s), time_s / roll.lag_s
     -- The difference of large numbers for a short time, of which this is the series.
     return {time_s = time_s, kept = kept, share = lags < 0.1--[[SHORT_LAGS]] and 0.5 - lags / 12.0 or 1.0 / lags -
             kept / (1.0 - kept)}
 end
 
--- The bank after a step under a constant command, where its rate has a lag.
-function law.lagging_after(roll, step, now, command_deg)
+-- The mean of the command over the time in which it may change by `change_deg` on the way to a demand.
+function law.mean_command(command_deg, demand_deg, change_deg)
+    local missing_deg = demand_deg - command_deg
+    if abs(missing_deg) >= change_deg then
+        return command_deg + 0.5 * law.clip(missing_deg, change_deg)
+    end
+    return demand_deg - 0.5 * missing_deg * abs(missing_deg) / change_deg
+end
+
+-- The exact bank after `time_s` seconds under a constant command.
+function law.bank_after(roll_time_s, rate_deg_s, bank_deg, command_deg, time_s)
+    if roll_time_s == 0.0 and rate_deg_s == huge then
+        return command_deg
+    end
+    local missing = command_deg - bank_deg
+    local sign = missing >= 0.0 and 1.0 or -1.0
+    local beyond = max(abs(missing) - rate_deg_s * roll_time_s, 0.0)
+    local limited_s = beyond / rate_deg_s
+    if limited_s > time_s then
+        return bank_deg + sign * rate_deg_s * time_s
+    end
+    missing = missing - sign * beyond
+    if roll_time_s > 0.0 then
+        return command_deg - missing * exp(-(time_s - limited_s) / roll_time_s)
+    end
+    return time_s <= limited_s and command_deg - missing or command_deg
+end
+
+-- The bank after a step under a constant command.
+function law.bank_after_step(roll, step, now, command_deg)
+    if roll.lag_s == 0.0 then
+        return {bank_deg = law.bank_after(roll.time_s, roll.rate_deg_s, now.bank_deg, command_deg, step.time_s),
+                rate_deg_s = now.rate_deg_s}
+    end
     local wanted_deg_s = (command_deg - now.bank_deg - 0.5 * step.time_s * now.rate_deg_s) / roll.time_s
     local rate_deg_s = law.clip(wanted_deg_s + step.kept * (now.rate_deg_s - wanted_deg_s), roll.rate_deg_s)
     local change_deg = step.time_s * (rate_deg_s + step.share * (now.rate_deg_s - rate_deg_s))
     return {bank_deg = now.bank_deg + change_deg, rate_deg_s = rate_deg_s}
+end
+
+-- The command that follows `command_deg` on the way to a demand, where it may change by `change_deg`.
+function law.slewed_command(command_deg, demand_deg, change_deg)
+    local missing_deg = demand_deg - command_deg
+    return abs(missing_deg) <= change_deg and demand_deg or command_deg + law.clip(missing_deg, change_deg)
 end
 
 -- The delay of a small change of bank from `beyond_deg` beyond the target, in degrees of bank, not in turn rates.
@@ -738,36 +782,44 @@ end
 -- integral over time is b m + a m', and that of m t is b times this less a m. A demand at the bank limit has the
 -- gain 1.
 function law.linear_delay(roll, beyond_deg, rate_deg_s, is_limited)
-    local gain = is_limited and 1.0 or law.command_gain(roll.time_s)
+    local gain = is_limited and 1.0 or law.command_gain(roll)
     local a, b = roll.time_s * roll.lag_s / gain, (roll.time_s + (is_limited and 0.0 or law.rate_gain_s(roll))) /
             gain
     local missing_s = -b * beyond_deg - a * rate_deg_s
     return {missing_s = missing_s, moment_s2 = b * missing_s + a * beyond_deg}
 end
 
--- `turn_delay` of a bank whose rate has a lag: flown in steps until the change is small; the rest is linear.
-function law.lagging_delay(roll, now, target_deg, limit_deg)
-    local gain, braking_s, tangent = law.command_gain(roll.time_s), law.rate_gain_s(roll), tan(target_deg *
+-- `turn_delay` of a bank whose rate has a lag, or whose command a slew rate.
+--
+-- It is flown in steps until the change is small; the rest is linear.
+function law.stepped_delay(roll, rolling, target_deg, limit_deg)
+    local now, command_deg = rolling.now, rolling.command_deg
+    local gain, braking_s, tangent = law.command_gain(roll), law.rate_gain_s(roll), tan(target_deg *
             0.017453292519943295)
     local missing_s, moment_s2, time_s, is_limited, left = 0.0, 0.0, 0.0, true, 24--[[STEPS]]
     local small_deg = law.small_change_deg(roll)
     now = {bank_deg = now.bank_deg, rate_deg_s = law.clip(now.rate_deg_s, roll.rate_deg_s)}
-    local dt = (abs(target_deg - now.bank_deg) / roll.rate_deg_s + 1.5--[[SETTLING]] * (roll.time_s + braking_s)) /
-            24--[[STEPS]]
-    local half_step, step = law.roll_step(roll, 0.5 * dt), law.roll_step(roll, dt)
+    local slowest_s = max(abs(target_deg - now.bank_deg) / roll.rate_deg_s, abs(target_deg - command_deg) /
+            roll.slew_deg_s)
+    local dt = (slowest_s + 1.5--[[SETTLING]] * (roll.time_s + braking_s)) / 24--[[STEPS]]
+    local half_step, step, slew_deg = law.roll_step(roll, 0.5 * dt), law.roll_step(roll, dt), roll.slew_deg_s * dt
     while left > 0 do
-        local change_deg = gain * (target_deg - now.bank_deg) - braking_s * now.rate_deg_s
-        is_limited = abs(now.bank_deg + change_deg) > limit_deg
+        local wanted_deg = now.bank_deg + gain * (target_deg - now.bank_deg) - braking_s * now.rate_deg_s
+        is_limited = abs(wanted_deg) > limit_deg or abs(wanted_deg - command_deg) > slew_deg
         if not is_limited and abs(target_deg - now.bank_deg) + roll.lag_s * abs(now.rate_deg_s) < small_deg then
             break
         end
-        local half = law.lagging_after(roll, half_step, now, law.clip(now.bank_deg + change_deg, limit_deg))
+        wanted_deg = law.clip(wanted_deg, limit_deg)
+        local half = law.bank_after_step(roll, half_step, now, law.mean_command(command_deg, wanted_deg, 0.5 *
+                slew_deg))
         -- The demand at half time counts for the whole step.
-        change_deg = gain * (target_deg - half.bank_deg) - braking_s * half.rate_deg_s
-        local after = law.lagging_after(roll, step, now, law.clip(half.bank_deg + change_deg, limit_deg))
+        wanted_deg = half.bank_deg + gain * (target_deg - half.bank_deg) - braking_s * half.rate_deg_s
+        wanted_deg = law.clip(wanted_deg, limit_deg)
+        local after = law.bank_after_step(roll, step, now, law.mean_command(command_deg, wanted_deg, slew_deg))
         local part_s = dt * (tangent - tan(0.5 * (now.bank_deg + after.bank_deg) * 0.017453292519943295))
         missing_s = missing_s + part_s
         moment_s2 = moment_s2 + part_s * (time_s + 0.5 * dt)
+        command_deg = law.slewed_command(command_deg, wanted_deg, slew_deg)
         now = after
         time_s = time_s + dt
         left = left - 1
@@ -779,11 +831,11 @@ function law.lagging_delay(roll, now, target_deg, limit_deg)
 end
 
 -- How a change of bank under `demand_deg` delays a turn. The turn rate is proportional to tan(bank).
-function law.turn_delay(roll, now, target_deg, limit_deg)
-    if roll.lag_s == 0.0 then
-        return law.first_order_delay(roll, now.bank_deg, target_deg, limit_deg)
+function law.turn_delay(roll, rolling, target_deg, limit_deg)
+    if roll.lag_s == 0.0 and roll.slew_deg_s == huge then
+        return law.first_order_delay(roll, rolling.now.bank_deg, target_deg, limit_deg)
     end
-    return law.lagging_delay(roll, now, target_deg, limit_deg)
+    return law.stepped_delay(roll, rolling, target_deg, limit_deg)
 end
 
 -- When a change of bank from rest, under `demand_deg`, changes the turn rate.
@@ -792,7 +844,8 @@ function law.turn_onset(roll, bank_deg, target_deg, limit_deg)
     if change == 0.0 then
         return law.small_onset(roll)
     end
-    local delay = law.turn_delay(roll, {bank_deg = bank_deg, rate_deg_s = 0.0}, target_deg, limit_deg)
+    local delay = law.turn_delay(roll, {now = {bank_deg = bank_deg, rate_deg_s = 0.0}, command_deg = bank_deg},
+            target_deg, limit_deg)
     local lead_s = delay.missing_s / change
     return {lead_s = lead_s, variance_s2 = max(2.0 * delay.moment_s2 / change - lead_s * lead_s, 0.0)}
 end
@@ -1235,8 +1288,8 @@ end
 -- be slower than the steps: until the next measurement, but no longer than `EXTRAPOLATED_S`, the last estimate is
 -- extrapolated with the modelled bank.
 function law.sense(sensing, vehicle, measurement, step_s, smoothing_s, covered_s)
-    local clock, observer, history, present, elapsed_s, error_deg = sensing.clock, sensing.observer,
-            sensing.history, sensing.present, sensing.elapsed_s, sensing.model_error_deg
+    local clock, observer, history, command_deg, present, elapsed_s, error_deg = sensing.clock, sensing.observer,
+            sensing.history, sensing.command_deg, sensing.present, sensing.elapsed_s, sensing.model_error_deg
     local rate_deg_s = vehicle.bank_rate_deg_s
     if step_s > 0.0 then
         clock = law.advance_clock(clock, step_s)
@@ -1244,25 +1297,26 @@ function law.sense(sensing, vehicle, measurement, step_s, smoothing_s, covered_s
         history = law.record_bank(history, vehicle.bank_deg, step_s, covered_s)
     end
     if not law.is_usable(measurement) then
-        return {clock = clock, observer = observer, history = history, present = present, bank_rate_deg_s =
-                rate_deg_s, elapsed_s = elapsed_s, model_error_deg = error_deg, is_known = false}
+        return {clock = clock, observer = observer, history = history, command_deg = command_deg, present = present,
+                bank_rate_deg_s = rate_deg_s, elapsed_s = elapsed_s, model_error_deg = error_deg, is_known = false}
     end
     if measurement.time_s == clock.time_s then
         if present.airspeed_m_s == 0.0 or clock.since_s > 3.0--[[EXTRAPOLATED_S]] then
-            return {clock = clock, observer = observer, history = history, present = present, bank_rate_deg_s =
-                    rate_deg_s, elapsed_s = elapsed_s, model_error_deg = error_deg, is_known = false}
+            return {clock = clock, observer = observer, history = history, command_deg = command_deg, present =
+                    present, bank_rate_deg_s = rate_deg_s, elapsed_s = elapsed_s, model_error_deg = error_deg,
+                    is_known = false}
         end
         present = law.estimate_after(law.estimate_with_bank(present, law.present_deg(history) + error_deg),
                 elapsed_s)
-        return {clock = clock, observer = observer, history = history, present = present, bank_rate_deg_s =
-                rate_deg_s, elapsed_s = 0.0, model_error_deg = error_deg, is_known = true}
+        return {clock = clock, observer = observer, history = history, command_deg = command_deg, present = present,
+                bank_rate_deg_s = rate_deg_s, elapsed_s = 0.0, model_error_deg = error_deg, is_known = true}
     end
     local is_first = clock.time_s == -huge
     local is_new
     clock, is_new = law.check_stamp(clock, measurement.time_s)
     if not is_new then
-        return {clock = clock, observer = observer, history = history, present = present, bank_rate_deg_s =
-                rate_deg_s, elapsed_s = elapsed_s, model_error_deg = error_deg, is_known = false}
+        return {clock = clock, observer = observer, history = history, command_deg = command_deg, present = present,
+                bank_rate_deg_s = rate_deg_s, elapsed_s = elapsed_s, model_error_deg = error_deg, is_known = false}
     end
     if is_first then
         history = law.constant_history(vehicle.bank_deg)
@@ -1275,8 +1329,14 @@ function law.sense(sensing, vehicle, measurement, step_s, smoothing_s, covered_s
             known.delay_s)
     observer = law.observe(observer, law.remove_bias(known, measurement), bank_deg, smoothing_s, turning)
     present = law.estimate_at_present(observer.estimate, history, known.delay_s)
-    return {clock = clock, observer = observer, history = history, present = present, bank_rate_deg_s = rate_deg_s,
-            elapsed_s = 0.0, model_error_deg = present.bank_deg - law.present_deg(history), is_known = true}
+    return {clock = clock, observer = observer, history = history, command_deg = command_deg, present = present,
+            bank_rate_deg_s = rate_deg_s, elapsed_s = 0.0, model_error_deg = present.bank_deg -
+            law.present_deg(history), is_known = true}
+end
+
+-- What is known, with the command that the vehicle follows at present.
+function law.following(sensing, command_deg)
+    return with_fields(sensing, {command_deg = command_deg})
 end
 
 -- The search without an aim.
@@ -1510,55 +1570,70 @@ function law.half_deg_on(limits, route, piece)
     return -piece.u * law.half_degrees(law.bank_at_rate(rate, V))
 end
 
--- How long the present bank rate goes on in effect, seconds: so far ahead is the bank of a small change.
-function law.coasting_s(roll)
-    return roll.lag_s > 0.0 and roll.time_s * roll.lag_s / (roll.time_s + law.rate_gain_s(roll)) or 0.0
+-- The bank to which it goes on where it is at present while no change is wanted, degrees.
+--
+-- A lag of the bank rate keeps it for a time in effect. A command that lies q ahead of the bank returns to it at
+-- the slew rate S: with q' = -S - q/tau, the bank meanwhile changes by q - S tau ln(1 + q/(S tau)).
+function law.coasted_deg(roll, rolling)
+    local now, command_deg = rolling.now, rolling.command_deg
+    local bank_deg = now.bank_deg
+    if roll.lag_s > 0.0 then
+        bank_deg = bank_deg + roll.time_s * roll.lag_s / (roll.time_s + law.rate_gain_s(roll)) * now.rate_deg_s
+    end
+    if roll.slew_deg_s < huge and roll.time_s > 0.0 then
+        local ahead_deg, slew_deg = law.clip(command_deg - now.bank_deg, roll.rate_deg_s * roll.time_s),
+                roll.slew_deg_s * roll.time_s
+        local change_deg = abs(ahead_deg) - slew_deg * log(1.0 + abs(ahead_deg) / slew_deg)
+        bank_deg = bank_deg + (ahead_deg > 0.0 and change_deg or -change_deg)
+    end
+    return bank_deg
 end
 
--- After how long a change from the bank of one piece to that of another takes effect, seconds, from a bank `now`.
+-- After how long a change from the bank of one piece to that of another takes effect, seconds.
 --
 -- Banks are in half degrees; `first_missing_s` is what the turn to the first one misses (`TurnDelay`).
-function law.change_delay_s(roll, now, limit_deg, first, first_missing_s, second)
+function law.change_delay_s(roll, rolling, limit_deg, first, first_missing_s, second)
     if first == second then
         return 0.0
     end
-    local missing_s = law.turn_delay(roll, now, 0.5 * second, limit_deg).missing_s
+    local missing_s = law.turn_delay(roll, rolling, 0.5 * second, limit_deg).missing_s
     return (first_missing_s - missing_s) / (tan(0.5 * first * 0.017453292519943295) - tan(0.5 * second *
             0.017453292519943295))
 end
 
 -- How changes from a bank to those of the pieces of a route are delayed; what is known is not computed again.
-function law.leads_to(limits, leads, now, route)
-    local bank, rate, u3 = law.half_degrees(now.bank_deg), law.half_degrees(now.rate_deg_s / 4.0--[[RATE_STEPS]]),
-            law.last_control(route)
+function law.leads_to(limits, leads, rolling, route)
+    local now, u3 = rolling.now, law.last_control(route)
+    local bank, rate = law.half_degrees(now.bank_deg), law.half_degrees(now.rate_deg_s / 4.0--[[RATE_STEPS]])
+    local command = limits.roll.slew_deg_s < huge and law.half_degrees(rolling.command_deg) or 0
     local first, second = law.half_deg_on(limits, route, route.current), law.half_deg_on(limits, route,
             route.second)
     local last = u3 == -2--[[ABSENT]] and route.side * limits.hold_half_deg or -u3 * limits.planned_half_deg
-    if leads.bank == bank and leads.rate == rate and leads.current == first and leads.next == second and leads.last
-            == last then
+    if leads.bank == bank and leads.rate == rate and leads.command == command and leads.current == first and
+            leads.next == second and leads.last == last then
         return leads
     end
     local roll, limit_deg = limits.roll, limits.limit_deg
     now = {bank_deg = 0.5 * bank, rate_deg_s = 0.5 * 4.0--[[RATE_STEPS]] * rate}
+    rolling = {now = now, command_deg = 0.5 * command}
     local there = tan(now.bank_deg * 0.017453292519943295)
     local first_s = law.small_onset(roll).lead_s
-    local first_delay = law.turn_delay(roll, now, 0.5 * first, limit_deg)
+    local first_delay = law.turn_delay(roll, rolling, 0.5 * first, limit_deg)
     local first_missing_s = first_delay.missing_s
     local tangent = tan(0.5 * first * 0.017453292519943295)
-    -- Where the bank goes without a command.
-    local coasted_deg = law.clip(now.bank_deg + law.coasting_s(roll) * now.rate_deg_s, limit_deg)
+    local unchanged_deg = law.clip(law.coasted_deg(roll, rolling), limit_deg)
     local current_s = first_s
-    if abs(0.5 * first - coasted_deg) > 5.0--[[SMALL_CHANGE_DEG]] then
-        current_s = max(first_missing_s / (tangent - tan(coasted_deg * 0.017453292519943295)), 0.5 * first_s)
-    elseif rate == 0 and first ~= bank then
+    if abs(0.5 * first - unchanged_deg) > 5.0--[[SMALL_CHANGE_DEG]] then
+        current_s = max(first_missing_s / (tangent - tan(unchanged_deg * 0.017453292519943295)), 0.5 * first_s)
+    elseif rate == 0 and first ~= bank and (command == 0 or command == bank) then
         current_s = first_missing_s / (tangent - there)
     end
     local more = current_s > 0.0 and first ~= bank and tangent - first_missing_s / current_s - there or 0.0
-    local next_s = law.change_delay_s(roll, now, limit_deg, first, first_missing_s, second) - current_s
-    local last_s = law.change_delay_s(roll, now, limit_deg, first, first_missing_s, last) - current_s
+    local next_s = law.change_delay_s(roll, rolling, limit_deg, first, first_missing_s, second) - current_s
+    local last_s = law.change_delay_s(roll, rolling, limit_deg, first, first_missing_s, last) - current_s
     local displaced_s2 = first_delay.moment_s2 - 0.5 * first_missing_s * current_s
-    return {bank = bank, rate = rate, current = first, next = second, last = last, current_s = current_s, more =
-            more, next_s = next_s, last_s = last_s, displaced_s2 = displaced_s2}
+    return {bank = bank, rate = rate, command = command, current = first, next = second, last = last, current_s =
+            current_s, more = more, next_s = next_s, last_s = last_s, displaced_s2 = displaced_s2}
 end
 
 -- The estimate with a turn rate that is larger by `more` g/V, positive to the right.
@@ -1659,8 +1734,8 @@ function law.advance_plan(planning, settings, limits, sensing)
     -- Pieces are dropped that are complete, in a plan of its own at most three.
     local state, early_s
     while true do
-        leads = law.leads_to(limits, leads, {bank_deg = estimate.bank_deg, rate_deg_s = sensing.bank_rate_deg_s},
-                route)
+        local now = {bank_deg = estimate.bank_deg, rate_deg_s = sensing.bank_rate_deg_s}
+        leads = law.leads_to(limits, leads, {now = now, command_deg = sensing.command_deg}, route)
         local later = law.estimate_after(law.turning_more(estimate, leads.more), leads.current_s)
         state = law.displaced(law.relative_state(settings, later), estimate.turning.ratio * leads.displaced_s2)
         left_s = law.remaining_s(route, state, left_s)
@@ -1853,8 +1928,9 @@ end
 -- The memory after a measurement: what is known, the present plan, and a search begun for another if it is due.
 function law.prepare(memory, settings, vehicle, measurement)
     local smoothing_s, covered_s = settings.smoothing_s, settings.covered_s
-    memory = with_fields(memory, {sensing = law.sense(memory.sensing, vehicle, measurement, memory.step_s,
-            smoothing_s, covered_s)})
+    local sensing = law.sense(memory.sensing, vehicle, measurement, memory.step_s, smoothing_s, covered_s)
+    local command_deg = memory.step_s > 0.0 and memory.command.bank_deg or vehicle.bank_deg
+    memory = with_fields(memory, {sensing = law.following(sensing, command_deg)})
     if not memory.sensing.is_known then
         return with_fields(memory, {planning = law.drop_search(memory.planning)})
     end
@@ -2697,8 +2773,7 @@ function law.demand_deg(roll, now, target_deg, limit_deg)
     if roll.time_s == 0.0 then
         return target_deg
     end
-    local change_deg = law.command_gain(roll.time_s) * (target_deg - now.bank_deg) - law.rate_gain_s(roll) *
-            now.rate_deg_s
+    local change_deg = law.command_gain(roll) * (target_deg - now.bank_deg) - law.rate_gain_s(roll) * now.rate_deg_s
     return law.clip(now.bank_deg + change_deg, limit_deg)
 end
 
@@ -2721,7 +2796,9 @@ function law.conclude(memory, settings, vehicle, dt)
             vehicle.estimates, dt)
     target_deg = law.clip(target_deg, limits.limit_deg)
     local now = {bank_deg = present.bank_deg, rate_deg_s = memory.sensing.bank_rate_deg_s}
-    local bank_deg = law.demand_deg(vehicle.estimates.roll, now, target_deg, limits.limit_deg)
+    local roll = vehicle.estimates.roll
+    local bank_deg = law.demand_deg(roll, now, target_deg, limits.limit_deg)
+    bank_deg = law.slewed_command(memory.sensing.command_deg, bank_deg, roll.slew_deg_s * dt)
     bank_deg = law.clip(bank_deg, settings.command_limit_deg)
     local route = plan.route
     local command = {turn_rate_deg_s = law.turn_rate_deg_s(vehicle.estimates, bank_deg), bank_deg = bank_deg, phase
@@ -2729,25 +2806,6 @@ function law.conclude(memory, settings, vehicle, dt)
             route.side, next_phase = law.phase_code(route.second.u), next_in_s = law.is_holding(route) and huge or
             plan.remaining_s - memory.planning.response.early_s}
     return with_fields(memory, {trim = trim, command = command, step_s = dt})
-end
-
--- The exact bank after `time_s` seconds under a constant command.
-function law.bank_after(roll_time_s, rate_deg_s, bank_deg, command_deg, time_s)
-    if roll_time_s == 0.0 and rate_deg_s == huge then
-        return command_deg
-    end
-    local missing = command_deg - bank_deg
-    local sign = missing >= 0.0 and 1.0 or -1.0
-    local beyond = max(abs(missing) - rate_deg_s * roll_time_s, 0.0)
-    local limited_s = beyond / rate_deg_s
-    if limited_s > time_s then
-        return bank_deg + sign * rate_deg_s * time_s
-    end
-    missing = missing - sign * beyond
-    if roll_time_s > 0.0 then
-        return command_deg - missing * exp(-(time_s - limited_s) / roll_time_s)
-    end
-    return time_s <= limited_s and command_deg - missing or command_deg
 end
 
 -- The model of a vehicle that is as declared after `dt` seconds under a command; `identify` is not needed then.

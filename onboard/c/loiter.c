@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: b5ebcc1404293ea46387f20b68204c0efaff230a31504265ba4595cb3369cf4b
+ * SHA-256 of the source: 3d72282c9a5b0410f8ea74eb8ecc8130121f206f3b093b5e5f5a11d24d863e7d
  */
 #include "loiter.h"
 
@@ -357,6 +357,9 @@ typedef struct { real lead_s, variance_s2; } TurnOnset;
 /* A bank and its rate, which counts only where that has a lag; degrees and degrees per second. */
 typedef struct { real bank_deg, rate_deg_s; } Bank;
 
+/* A bank, and the command that it follows at present, which counts only where that has a slew rate; degrees. */
+typedef struct { Bank now; real command_deg; } Rolling;
+
 /* How a change of bank delays a turn.
  *
  * With w the turn rate divided by g/V, and w1 the one after the change: `missing_s` is the integral of w1 - w over
@@ -637,7 +640,7 @@ static const AlongFlight CALM_ALONG = {REAL(0.0), REAL(0.0), REAL(3.0)};
  */
 #define SAMPLES 64
 static const Estimate NO_ESTIMATE = {-REAL_INFINITY, {REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0)}, REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), {REAL(1.0), REAL(0.0)}};
-static const Limits NO_LIMITS = {-1, false, REAL(0.0), REAL(0.0), {REAL(0.0), REAL(0.0), REAL(0.0)}, REAL(0.0), {REAL(1.0), REAL(1.0), REAL(1.0)}, REAL(0.0), 0, 0, REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)};
+static const Limits NO_LIMITS = {-1, false, REAL(0.0), REAL(0.0), {REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)}, REAL(0.0), {REAL(1.0), REAL(1.0), REAL(1.0)}, REAL(0.0), 0, 0, REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)};
 
 /* The wind is planned as estimated, not as declared, where they differ by the first share of the airspeed, until
  * they differ by less than the second.
@@ -699,7 +702,7 @@ static const real_3 LAGUERRE_WEIGHTS = {REAL(0.711093009929173), REAL(0.27851773
 /* The gain of course corrections is reduced by this share of the delay: a part of it is not predicted exactly. */
 #define DELAY_SHARE REAL(1.0)
 static const Plan NO_PLAN = {{0, {-2, REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(1.0)}, {-2, REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(1.0)}, {-2, REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(1.0)}, REAL(0.0), -2, REAL(0.0), REAL(1.0), REAL(1.0), REAL(0.0), REAL(0.0)}, REAL(0.0), REAL_INFINITY, REAL_INFINITY, -REAL_INFINITY};
-static const Leads NO_LEADS = {-1000000000, 0, 0, 0, 0, REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)};
+static const Leads NO_LEADS = {-1000000000, 0, 0, 0, 0, 0, REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)};
 static const ResponsePoint NO_RESPONSE = {{REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)}, {REAL(0.0), REAL(0.0), REAL(0.0)}, REAL(0.0)};
 static const EntrySearch NO_ENTRY_SEARCH = {0, {REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)}, {REAL(1.0), REAL(1.0), REAL(1.0)}, REAL(0.0), REAL(0.0), REAL(1.0), REAL(1.0), 0, false, false, false, {0, 0, 1, {REAL(0.0), REAL(0.0), REAL(1.0), REAL(0.0), REAL(1.0), REAL(0.0), REAL(0.0), REAL(0.0)}, {REAL(0.0), 0, {REAL_INFINITY, 0, REAL(0.0), REAL(0.0), REAL(0.0), REAL(1.0), REAL(1.0), REAL(0.0)}}, {{0, 0, REAL_INFINITY, REAL(0.0), REAL(0.0)}, REAL(0.0), REAL_INFINITY}, {0, 0, 63}, {-2, {REAL(0.0), {REAL_INFINITY, 0, REAL(0.0), REAL(0.0), REAL(0.0), REAL(1.0), REAL(1.0), REAL(0.0)}, REAL(0.0)}}, {0, 0, 0, 0}, {0, 0, 0, 0}, {REAL(0.0), 0, REAL(0.0), REAL(0.0)}, REAL_INFINITY, 0, {0, 0, REAL(0.0), {REAL(0.0), {REAL_INFINITY, 0, REAL(0.0), REAL(0.0), REAL(0.0), REAL(1.0), REAL(1.0), REAL(0.0)}, REAL(0.0)}, {REAL(0.0), {REAL_INFINITY, 0, REAL(0.0), REAL(0.0), REAL(0.0), REAL(1.0), REAL(1.0), REAL(0.0)}, REAL(0.0)}, {REAL(0.0), {REAL_INFINITY, 0, REAL(0.0), REAL(0.0), REAL(0.0), REAL(1.0), REAL(1.0), REAL(0.0)}, REAL(0.0)}, 0, false, 0, 0}, {0, REAL(0.0), REAL(0.0)}, 0, {12, 0, 0, REAL_NAN, REAL_NAN, REAL_NAN, REAL_NAN, REAL_NAN}}};
 
@@ -3616,7 +3619,7 @@ static inline BankHistory constant_history(Rings *rings, real bank_deg) {
 /* What is known before the first measurement, at a bank. */
 static inline Sensing first_sensing(Rings *rings, real smoothing_s, real bank_deg) {
     return MAKE(Sensing){FIRST_CLOCK, first_observer(rings, smoothing_s), constant_history(rings, bank_deg),
-            NO_ESTIMATE, REAL(0.0), REAL(0.0), REAL(0.0), false};
+            bank_deg, NO_ESTIMATE, REAL(0.0), REAL(0.0), REAL(0.0), false};
 }
 
 /* The velocity of the air past the circle to plan with, and whether it differs from the declared one.
@@ -3674,7 +3677,8 @@ static inline real present_limit_deg(const Settings *settings, const VehicleEsti
 static inline bool is_changed(RollValues roll, RollValues before) {
     const real time_s = before.time_s, lag_s = before.lag_s;
     return real_fabs(roll.time_s - time_s) > ROLL_CHANGED * time_s || real_fabs(roll.rate_deg_s - before.rate_deg_s)
-            > ROLL_CHANGED * before.rate_deg_s || real_fabs(roll.lag_s - lag_s) > ROLL_CHANGED * time_s;
+            > ROLL_CHANGED * before.rate_deg_s || real_fabs(roll.lag_s - lag_s) > ROLL_CHANGED * time_s ||
+            roll.slew_deg_s != before.slew_deg_s;
 }
 
 /* A bank in whole half degrees. */
@@ -3682,9 +3686,13 @@ static inline integer half_degrees(real bank_deg) {
     return integer_of(real_ceil(REAL(2.0) * bank_deg - REAL(0.5)));
 }
 
-/* How many times the change of bank that is wanted is commanded. */
-static inline real command_gain(real roll_time_s) {
-    return min_real(max_real(roll_time_s / QUICKEST_S, REAL(1.0)), COMMAND_GAIN);
+/* How many times the change of bank that is wanted is commanded.
+ *
+ * With more than the last number the command would have to return to the target faster than its slew rate.
+ */
+static inline real command_gain(RollValues roll) {
+    return min_real(min_real(max_real(roll.time_s / QUICKEST_S, REAL(1.0)), COMMAND_GAIN), REAL(1.0) +
+            roll.slew_deg_s / roll.rate_deg_s);
 }
 
 /* By how much less is commanded for each degree per second of the bank rate, seconds.
@@ -3693,13 +3701,13 @@ static inline real command_gain(real roll_time_s) {
  * `DAMPING` at least. It is 0 without a lag.
  */
 static inline real rate_gain_s(RollValues roll) {
-    return max_real(REAL(2.0) * DAMPING * real_sqrt(command_gain(roll.time_s) * roll.time_s * roll.lag_s) -
-            roll.time_s, REAL(0.0));
+    return max_real(REAL(2.0) * DAMPING * real_sqrt(command_gain(roll) * roll.time_s * roll.lag_s) - roll.time_s,
+            REAL(0.0));
 }
 
 /* When a small change of bank takes effect. */
 static inline TurnOnset small_onset(RollValues roll) {
-    const real gain = command_gain(roll.time_s);
+    const real gain = command_gain(roll);
     const real first_s = (roll.time_s + rate_gain_s(roll)) / gain;
     return MAKE(TurnOnset){first_s, max_real(first_s * first_s - REAL(2.0) * roll.time_s * roll.lag_s / gain,
             REAL(0.0))};
@@ -3714,7 +3722,7 @@ static inline TurnOnset small_onset(RollValues roll) {
  * Gauss's rules.
  */
 static inline TurnDelay first_order_delay(RollValues roll, real bank_deg, real target_deg, real limit_deg) {
-    const real tau = roll.time_s, p = roll.rate_deg_s, gain = command_gain(roll.time_s), m = real_fabs(target_deg -
+    const real tau = roll.time_s, p = roll.rate_deg_s, gain = command_gain(roll), m = real_fabs(target_deg -
             bank_deg);
     const real last_s = tau / gain, change = real_tan(target_deg * REAL(0.017453292519943295)) - real_tan(bank_deg *
             REAL(0.017453292519943295));
@@ -3783,7 +3791,7 @@ static inline TurnDelay first_order_delay(RollValues roll, real bank_deg, real t
 
 /* The largest change of bank that counts as infinitely small: its rate is not limited. */
 static inline real small_change_deg(RollValues roll) {
-    return min_real(SMALL_CHANGE_DEG, roll.rate_deg_s * roll.time_s / command_gain(roll.time_s));
+    return min_real(SMALL_CHANGE_DEG, roll.rate_deg_s * roll.time_s / command_gain(roll));
 }
 
 /* `value`, limited to the range from -`limit` to `limit`. */
@@ -3794,18 +3802,40 @@ static inline real clip(real value, real limit) {
 
 /* The step of a time above 0. */
 static inline RollStep roll_step(RollValues roll, real time_s) {
+    if (roll.lag_s == REAL(0.0)) {
+        return MAKE(RollStep){time_s, REAL(0.0), REAL(0.0)};
+    }
     const real kept = real_exp(-time_s / roll.lag_s), lags = time_s / roll.lag_s;
     /* The difference of large numbers for a short time, of which this is the series. */
     return MAKE(RollStep){time_s, kept, lags < SHORT_LAGS ? REAL(0.5) - lags / REAL(12.0) : REAL(1.0) / lags - kept
             / (REAL(1.0) - kept)};
 }
 
-/* The bank after a step under a constant command, where its rate has a lag. */
-static inline Bank lagging_after(RollValues roll, RollStep step, Bank now, real command_deg) {
+/* The mean of the command over the time in which it may change by `change_deg` on the way to a demand. */
+static inline real mean_command(real command_deg, real demand_deg, real change_deg) {
+    const real missing_deg = demand_deg - command_deg;
+    if (real_fabs(missing_deg) >= change_deg) {
+        return command_deg + REAL(0.5) * clip(missing_deg, change_deg);
+    }
+    return demand_deg - REAL(0.5) * missing_deg * real_fabs(missing_deg) / change_deg;
+}
+
+/* The bank after a step under a constant command. */
+static inline Bank bank_after_step(RollValues roll, RollStep step, Bank now, real command_deg) {
+    if (roll.lag_s == REAL(0.0)) {
+        return MAKE(Bank){bank_after(roll.time_s, roll.rate_deg_s, now.bank_deg, command_deg, step.time_s),
+                now.rate_deg_s};
+    }
     const real wanted_deg_s = (command_deg - now.bank_deg - REAL(0.5) * step.time_s * now.rate_deg_s) / roll.time_s;
     const real rate_deg_s = clip(wanted_deg_s + step.kept * (now.rate_deg_s - wanted_deg_s), roll.rate_deg_s);
     const real change_deg = step.time_s * (rate_deg_s + step.share * (now.rate_deg_s - rate_deg_s));
     return MAKE(Bank){now.bank_deg + change_deg, rate_deg_s};
+}
+
+/* The command that follows `command_deg` on the way to a demand, where it may change by `change_deg`. */
+static inline real slewed_command(real command_deg, real demand_deg, real change_deg) {
+    const real missing_deg = demand_deg - command_deg;
+    return real_fabs(missing_deg) <= change_deg ? demand_deg : command_deg + clip(missing_deg, change_deg);
 }
 
 /* The delay of a small change of bank from `beyond_deg` beyond the target, in degrees of bank, not in turn rates.
@@ -3815,40 +3845,51 @@ static inline Bank lagging_after(RollValues roll, RollStep step, Bank now, real 
  * gain 1.
  */
 static inline TurnDelay linear_delay(RollValues roll, real beyond_deg, real rate_deg_s, bool is_limited) {
-    const real gain = is_limited ? REAL(1.0) : command_gain(roll.time_s);
+    const real gain = is_limited ? REAL(1.0) : command_gain(roll);
     const real a = roll.time_s * roll.lag_s / gain, b = (roll.time_s + (is_limited ? REAL(0.0) : rate_gain_s(roll)))
             / gain;
     const real missing_s = -b * beyond_deg - a * rate_deg_s;
     return MAKE(TurnDelay){missing_s, b * missing_s + a * beyond_deg};
 }
 
-/* `turn_delay` of a bank whose rate has a lag: flown in steps until the change is small; the rest is linear. */
-static inline TurnDelay lagging_delay(RollValues roll, Bank now, real target_deg, real limit_deg) {
-    const real gain = command_gain(roll.time_s), braking_s = rate_gain_s(roll), tangent = real_tan(target_deg *
+/* `turn_delay` of a bank whose rate has a lag, or whose command a slew rate.
+ *
+ * It is flown in steps until the change is small; the rest is linear.
+ */
+static inline TurnDelay stepped_delay(RollValues roll, Rolling rolling, real target_deg, real limit_deg) {
+    Bank now = rolling.now;
+    real command_deg = rolling.command_deg;
+    const real gain = command_gain(roll), braking_s = rate_gain_s(roll), tangent = real_tan(target_deg *
             REAL(0.017453292519943295));
     real missing_s = REAL(0.0), moment_s2 = REAL(0.0), time_s = REAL(0.0);
     bool is_limited = true;
     integer left = STEPS;
     const real small_deg = small_change_deg(roll);
     now = MAKE(Bank){now.bank_deg, clip(now.rate_deg_s, roll.rate_deg_s)};
-    const real dt = (real_fabs(target_deg - now.bank_deg) / roll.rate_deg_s + SETTLING * (roll.time_s + braking_s))
-            / (real)STEPS;
+    const real slowest_s = max_real(real_fabs(target_deg - now.bank_deg) / roll.rate_deg_s, real_fabs(target_deg -
+            command_deg) / roll.slew_deg_s);
+    const real dt = (slowest_s + SETTLING * (roll.time_s + braking_s)) / (real)STEPS;
     const RollStep half_step = roll_step(roll, REAL(0.5) * dt), step = roll_step(roll, dt);
+    const real slew_deg = roll.slew_deg_s * dt;
     while (left > 0) {
-        real change_deg = gain * (target_deg - now.bank_deg) - braking_s * now.rate_deg_s;
-        is_limited = real_fabs(now.bank_deg + change_deg) > limit_deg;
+        real wanted_deg = now.bank_deg + gain * (target_deg - now.bank_deg) - braking_s * now.rate_deg_s;
+        is_limited = real_fabs(wanted_deg) > limit_deg || real_fabs(wanted_deg - command_deg) > slew_deg;
         if (!is_limited && real_fabs(target_deg - now.bank_deg) + roll.lag_s * real_fabs(now.rate_deg_s) <
                 small_deg) {
             break;
         }
-        const Bank half = lagging_after(roll, half_step, now, clip(now.bank_deg + change_deg, limit_deg));
+        wanted_deg = clip(wanted_deg, limit_deg);
+        const Bank half = bank_after_step(roll, half_step, now, mean_command(command_deg, wanted_deg, REAL(0.5) *
+                slew_deg));
         /* The demand at half time counts for the whole step. */
-        change_deg = gain * (target_deg - half.bank_deg) - braking_s * half.rate_deg_s;
-        const Bank after = lagging_after(roll, step, now, clip(half.bank_deg + change_deg, limit_deg));
+        wanted_deg = half.bank_deg + gain * (target_deg - half.bank_deg) - braking_s * half.rate_deg_s;
+        wanted_deg = clip(wanted_deg, limit_deg);
+        const Bank after = bank_after_step(roll, step, now, mean_command(command_deg, wanted_deg, slew_deg));
         const real part_s = dt * (tangent - real_tan(REAL(0.5) * (now.bank_deg + after.bank_deg) *
                 REAL(0.017453292519943295)));
         missing_s = missing_s + part_s;
         moment_s2 = moment_s2 + part_s * (time_s + REAL(0.5) * dt);
+        command_deg = slewed_command(command_deg, wanted_deg, slew_deg);
         now = after;
         time_s = time_s + dt;
         left = left - 1;
@@ -3860,11 +3901,11 @@ static inline TurnDelay lagging_delay(RollValues roll, Bank now, real target_deg
 }
 
 /* How a change of bank under `demand_deg` delays a turn. The turn rate is proportional to tan(bank). */
-static inline TurnDelay turn_delay(RollValues roll, Bank now, real target_deg, real limit_deg) {
-    if (roll.lag_s == REAL(0.0)) {
-        return first_order_delay(roll, now.bank_deg, target_deg, limit_deg);
+static inline TurnDelay turn_delay(RollValues roll, Rolling rolling, real target_deg, real limit_deg) {
+    if (roll.lag_s == REAL(0.0) && roll.slew_deg_s == REAL_INFINITY) {
+        return first_order_delay(roll, rolling.now.bank_deg, target_deg, limit_deg);
     }
-    return lagging_delay(roll, now, target_deg, limit_deg);
+    return stepped_delay(roll, rolling, target_deg, limit_deg);
 }
 
 /* When a change of bank from rest, under `demand_deg`, changes the turn rate. */
@@ -3874,7 +3915,8 @@ static inline TurnOnset turn_onset(RollValues roll, real bank_deg, real target_d
     if (change == REAL(0.0)) {
         return small_onset(roll);
     }
-    const TurnDelay delay = turn_delay(roll, MAKE(Bank){bank_deg, REAL(0.0)}, target_deg, limit_deg);
+    const TurnDelay delay = turn_delay(roll, MAKE(Rolling){MAKE(Bank){bank_deg, REAL(0.0)}, bank_deg}, target_deg,
+            limit_deg);
     const real lead_s = delay.missing_s / change;
     return MAKE(TurnOnset){lead_s, max_real(REAL(2.0) * delay.moment_s2 / change - lead_s * lead_s, REAL(0.0))};
 }
@@ -4362,6 +4404,7 @@ static inline void sense(Rings *rings, Sensing *sensing, const VehicleModel *veh
     Clock clock = sensing->clock;
     Observer observer = sensing->observer;
     BankHistory history = sensing->history;
+    const real command_deg = sensing->command_deg;
     Estimate present = sensing->present;
     real elapsed_s = sensing->elapsed_s;
     const real error_deg = sensing->model_error_deg;
@@ -4372,17 +4415,20 @@ static inline void sense(Rings *rings, Sensing *sensing, const VehicleModel *veh
         history = record_bank(history, vehicle->bank_deg, step_s, covered_s);
     }
     if (!is_usable(measurement)) {
-        *sensing = MAKE(Sensing){clock, observer, history, present, rate_deg_s, elapsed_s, error_deg, false};
+        *sensing = MAKE(Sensing){clock, observer, history, command_deg, present, rate_deg_s, elapsed_s, error_deg,
+                false};
         return;
     }
     if (measurement->time_s == clock.time_s) {
         if (present.airspeed_m_s == REAL(0.0) || clock.since_s > EXTRAPOLATED_S) {
-            *sensing = MAKE(Sensing){clock, observer, history, present, rate_deg_s, elapsed_s, error_deg, false};
+            *sensing = MAKE(Sensing){clock, observer, history, command_deg, present, rate_deg_s, elapsed_s,
+                    error_deg, false};
             return;
         }
         const Estimate stored_1 = estimate_with_bank(&present, present_deg(history) + error_deg);
         present = estimate_after(&stored_1, elapsed_s);
-        *sensing = MAKE(Sensing){clock, observer, history, present, rate_deg_s, REAL(0.0), error_deg, true};
+        *sensing = MAKE(Sensing){clock, observer, history, command_deg, present, rate_deg_s, REAL(0.0), error_deg,
+                true};
         return;
     }
     const bool is_first = clock.time_s == -REAL_INFINITY;
@@ -4390,7 +4436,8 @@ static inline void sense(Rings *rings, Sensing *sensing, const VehicleModel *veh
     clock = check_stamp_2.a0;
     const bool is_new = check_stamp_2.a1;
     if (!is_new) {
-        *sensing = MAKE(Sensing){clock, observer, history, present, rate_deg_s, elapsed_s, error_deg, false};
+        *sensing = MAKE(Sensing){clock, observer, history, command_deg, present, rate_deg_s, elapsed_s, error_deg,
+                false};
         return;
     }
     if (is_first) {
@@ -4405,8 +4452,14 @@ static inline void sense(Rings *rings, Sensing *sensing, const VehicleModel *veh
     const State stored_3 = remove_bias(&known, measurement);
     observer = observe(rings, &observer, &stored_3, bank_deg, smoothing_s, turning);
     present = estimate_at_present(&observer.estimate, history, known.delay_s);
-    *sensing = MAKE(Sensing){clock, observer, history, present, rate_deg_s, REAL(0.0), present.bank_deg -
-            present_deg(history), true};
+    *sensing = MAKE(Sensing){clock, observer, history, command_deg, present, rate_deg_s, REAL(0.0), present.bank_deg
+            - present_deg(history), true};
+    return;
+}
+
+/* What is known, with the command that the vehicle follows at present. */
+static inline void following(Sensing *sensing, real command_deg) {
+    sensing->command_deg = command_deg;
     return;
 }
 
@@ -4641,59 +4694,78 @@ static inline integer half_deg_on(const Limits *limits, const Route *route, cons
     return -piece->u * half_degrees(bank_at_rate(rate, V));
 }
 
-/* How long the present bank rate goes on in effect, seconds: so far ahead is the bank of a small change. */
-static inline real coasting_s(RollValues roll) {
-    return roll.lag_s > REAL(0.0) ? roll.time_s * roll.lag_s / (roll.time_s + rate_gain_s(roll)) : REAL(0.0);
+/* The bank to which it goes on where it is at present while no change is wanted, degrees.
+ *
+ * A lag of the bank rate keeps it for a time in effect. A command that lies q ahead of the bank returns to it at
+ * the slew rate S: with q' = -S - q/tau, the bank meanwhile changes by q - S tau ln(1 + q/(S tau)).
+ */
+static inline real coasted_deg(RollValues roll, Rolling rolling) {
+    const Bank now = rolling.now;
+    const real command_deg = rolling.command_deg;
+    real bank_deg = now.bank_deg;
+    if (roll.lag_s > REAL(0.0)) {
+        bank_deg += roll.time_s * roll.lag_s / (roll.time_s + rate_gain_s(roll)) * now.rate_deg_s;
+    }
+    if (roll.slew_deg_s < REAL_INFINITY && roll.time_s > REAL(0.0)) {
+        const real ahead_deg = clip(command_deg - now.bank_deg, roll.rate_deg_s * roll.time_s), slew_deg =
+                roll.slew_deg_s * roll.time_s;
+        const real change_deg = real_fabs(ahead_deg) - slew_deg * real_log(REAL(1.0) + real_fabs(ahead_deg) /
+                slew_deg);
+        bank_deg += ahead_deg > REAL(0.0) ? change_deg : -change_deg;
+    }
+    return bank_deg;
 }
 
-/* After how long a change from the bank of one piece to that of another takes effect, seconds, from a bank `now`.
+/* After how long a change from the bank of one piece to that of another takes effect, seconds.
  *
  * Banks are in half degrees; `first_missing_s` is what the turn to the first one misses (`TurnDelay`).
  */
-static inline real change_delay_s(RollValues roll, Bank now, real limit_deg, integer first, real first_missing_s,
-        integer second) {
+static inline real change_delay_s(RollValues roll, Rolling rolling, real limit_deg, integer first, real
+        first_missing_s, integer second) {
     if (first == second) {
         return REAL(0.0);
     }
-    const real missing_s = turn_delay(roll, now, REAL(0.5) * (real)second, limit_deg).missing_s;
+    const real missing_s = turn_delay(roll, rolling, REAL(0.5) * (real)second, limit_deg).missing_s;
     return (first_missing_s - missing_s) / (real_tan(REAL(0.5) * (real)first * REAL(0.017453292519943295)) -
             real_tan(REAL(0.5) * (real)second * REAL(0.017453292519943295)));
 }
 
 /* How changes from a bank to those of the pieces of a route are delayed; what is known is not computed again. */
-static inline Leads leads_to(const Limits *limits, const Leads *leads, Bank now, const Route *route) {
-    const integer bank = half_degrees(now.bank_deg), rate = half_degrees(now.rate_deg_s / RATE_STEPS), u3 =
-            last_control(route);
+static inline Leads leads_to(const Limits *limits, const Leads *leads, Rolling rolling, const Route *route) {
+    Bank now = rolling.now;
+    const integer u3 = last_control(route);
+    const integer bank = half_degrees(now.bank_deg), rate = half_degrees(now.rate_deg_s / RATE_STEPS);
+    const integer command = limits->roll.slew_deg_s < REAL_INFINITY ? half_degrees(rolling.command_deg) : 0;
     const integer first = half_deg_on(limits, route, &route->current), second = half_deg_on(limits, route,
             &route->second);
     const integer last = u3 == ABSENT ? route->side * limits->hold_half_deg : -u3 * limits->planned_half_deg;
-    if (leads->bank == bank && leads->rate == rate && leads->current == first && leads->next == second &&
-            leads->last == last) {
+    if (leads->bank == bank && leads->rate == rate && leads->command == command && leads->current == first
+            && leads->next == second && leads->last == last) {
         return (*leads);
     }
     const RollValues roll = limits->roll;
     const real limit_deg = limits->limit_deg;
     now = MAKE(Bank){REAL(0.5) * (real)bank, REAL(0.5) * RATE_STEPS * (real)rate};
+    rolling = MAKE(Rolling){now, REAL(0.5) * (real)command};
     const real there = real_tan(now.bank_deg * REAL(0.017453292519943295));
     const real first_s = small_onset(roll).lead_s;
-    const TurnDelay first_delay = turn_delay(roll, now, REAL(0.5) * (real)first, limit_deg);
+    const TurnDelay first_delay = turn_delay(roll, rolling, REAL(0.5) * (real)first, limit_deg);
     const real first_missing_s = first_delay.missing_s;
     const real tangent = real_tan(REAL(0.5) * (real)first * REAL(0.017453292519943295));
-    /* Where the bank goes without a command. */
-    const real coasted_deg = clip(now.bank_deg + coasting_s(roll) * now.rate_deg_s, limit_deg);
+    const real unchanged_deg = clip(coasted_deg(roll, rolling), limit_deg);
     real current_s = first_s;
-    if (real_fabs(REAL(0.5) * (real)first - coasted_deg) > SMALL_CHANGE_DEG) {
-        current_s = max_real(first_missing_s / (tangent - real_tan(coasted_deg * REAL(0.017453292519943295))),
+    if (real_fabs(REAL(0.5) * (real)first - unchanged_deg) > SMALL_CHANGE_DEG) {
+        current_s = max_real(first_missing_s / (tangent - real_tan(unchanged_deg * REAL(0.017453292519943295))),
                 REAL(0.5) * first_s);
-    } else if (rate == 0 && first != bank) {
+    } else if (rate == 0 && first != bank && (command == 0 || command == bank)) {
         current_s = first_missing_s / (tangent - there);
     }
     const real more = current_s > REAL(0.0) && first != bank ? tangent - first_missing_s / current_s - there :
             REAL(0.0);
-    const real next_s = change_delay_s(roll, now, limit_deg, first, first_missing_s, second) - current_s;
-    const real last_s = change_delay_s(roll, now, limit_deg, first, first_missing_s, last) - current_s;
+    const real next_s = change_delay_s(roll, rolling, limit_deg, first, first_missing_s, second) - current_s;
+    const real last_s = change_delay_s(roll, rolling, limit_deg, first, first_missing_s, last) - current_s;
     const real displaced_s2 = first_delay.moment_s2 - REAL(0.5) * first_missing_s * current_s;
-    return MAKE(Leads){bank, rate, first, second, last, current_s, more, next_s, last_s, displaced_s2};
+    return MAKE(Leads){bank, rate, command, first, second, last, current_s, more, next_s, last_s, displaced_s2};
 }
 
 /* The estimate with a turn rate that is larger by `more` g/V, positive to the right. */
@@ -4802,7 +4874,8 @@ static inline void advance_plan(Planning *planning, const Settings *settings, co
     RelativeState state;
     real early_s;
     while (true) {
-        leads = leads_to(limits, &leads, MAKE(Bank){estimate.bank_deg, sensing->bank_rate_deg_s}, &route);
+        const Bank now = MAKE(Bank){estimate.bank_deg, sensing->bank_rate_deg_s};
+        leads = leads_to(limits, &leads, MAKE(Rolling){now, sensing->command_deg}, &route);
         const Estimate stored_1 = turning_more(&estimate, leads.more);
         const Estimate later = estimate_after(&stored_1, leads.current_s);
         const RelativeState stored_2 = relative_state(settings, &later);
@@ -5031,7 +5104,13 @@ static inline void update_plan(Planning *planning, const Settings *settings, con
 static APART void prepare(Rings *rings, Memory *memory, const Settings *settings, const VehicleModel *vehicle, const
         State *measurement) {
     const real smoothing_s = settings->smoothing_s, covered_s = settings->covered_s;
-    sense(rings, &memory->sensing, vehicle, measurement, memory->step_s, smoothing_s, covered_s);
+    Sensing changed_1 = memory->sensing;
+    sense(rings, &changed_1, vehicle, measurement, memory->step_s, smoothing_s, covered_s);
+    const Sensing sensing = changed_1;
+    const real command_deg = memory->step_s > REAL(0.0) ? memory->command.bank_deg : vehicle->bank_deg;
+    Sensing changed_2 = sensing;
+    following(&changed_2, command_deg);
+    memory->sensing = changed_2;
     if (!memory->sensing.is_known) {
         drop_search(&memory->planning);
         return;
@@ -5428,8 +5507,7 @@ static inline real demand_deg(RollValues roll, Bank now, real target_deg, real l
     if (roll.time_s == REAL(0.0)) {
         return target_deg;
     }
-    const real change_deg = command_gain(roll.time_s) * (target_deg - now.bank_deg) - rate_gain_s(roll) *
-            now.rate_deg_s;
+    const real change_deg = command_gain(roll) * (target_deg - now.bank_deg) - rate_gain_s(roll) * now.rate_deg_s;
     return clip(now.bank_deg + change_deg, limit_deg);
 }
 
@@ -5457,7 +5535,9 @@ static APART void conclude(Memory *memory, const Settings *settings, const Vehic
     const real trim = target_bank_1.a1;
     target_deg = clip(target_deg, limits.limit_deg);
     const Bank now = MAKE(Bank){present.bank_deg, memory->sensing.bank_rate_deg_s};
-    real bank_deg = demand_deg(vehicle->estimates.roll, now, target_deg, limits.limit_deg);
+    const RollValues roll = vehicle->estimates.roll;
+    real bank_deg = demand_deg(roll, now, target_deg, limits.limit_deg);
+    bank_deg = slewed_command(memory->sensing.command_deg, bank_deg, roll.slew_deg_s * dt);
     bank_deg = clip(bank_deg, settings->command_limit_deg);
     const Route route = plan.route;
     const LawCommand command = MAKE(LawCommand){turn_rate_deg_s(&vehicle->estimates, bank_deg), bank_deg,
@@ -5562,6 +5642,7 @@ loiter_law_config loiter_law_defaults(loiter_real airspeed_m_s, loiter_real bank
     config.bank_limit_deg = bank_limit_deg;
     config.roll_time_s = REAL(0.5);
     config.roll_rate_deg_s = REAL(60.0);
+    config.roll_slew_deg_s = REAL_INFINITY;
     config.delay_s = REAL(0.1);
     config.wind_east_m_s = config.wind_north_m_s = REAL(0.0);
     config.reserve = REAL(0.1);
@@ -5591,6 +5672,7 @@ static int status_of_config(const loiter_law_config *c) {
         return LOITER_BAD_TURN;
     }
     if (!is_within(c->roll_time_s, REAL(0.0), MOST) || !(c->roll_rate_deg_s >= LEAST_ROLL_RATE) ||
+        !(c->roll_slew_deg_s >= LEAST_ROLL_RATE) ||
         !is_within(c->delay_s, REAL(0.0), MOST) || !is_within(c->reserve, REAL(0.0), MOST) ||
         !is_within(c->smoothing_s, REAL(0.0), MOST) || !(c->gain > REAL(0.0)) || !(c->gain <= MOST) || c->search_steps < 0) {
         return LOITER_BAD_RESPONSE;
@@ -5615,7 +5697,7 @@ int loiter_law_begin(loiter_law *law, const loiter_law_config *c) {
     if (status != LOITER_OK) {
         return status;
     }
-    const RollValues roll = {c->roll_time_s, c->roll_rate_deg_s, REAL(0.0)};
+    const RollValues roll = {c->roll_time_s, c->roll_rate_deg_s, REAL(0.0), c->roll_slew_deg_s};
     const VehicleEstimates declared = {roll,
                                        c->delay_s,
                                        REAL(1.0),

@@ -6,7 +6,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: b5ebcc1404293ea46387f20b68204c0efaff230a31504265ba4595cb3369cf4b
+ * SHA-256 of the source: 3d72282c9a5b0410f8ea74eb8ecc8130121f206f3b093b5e5f5a11d24d863e7d
  */
 #ifndef LOITER_ONBOARD_H
 #define LOITER_ONBOARD_H
@@ -156,6 +156,9 @@ typedef struct {
     /* The roll response, a first-order lag with a limited rate, and the delay between a command and the first
      * measurement that shows it. */
     loiter_real roll_time_s, roll_rate_deg_s, delay_s;
+    /* By how much the command may change in a second, at most; infinite by default. Where the autopilot limits the rate
+     * of its bank setpoint, as PX4 does (FW_PN_R_SLEW_MAX), give that limit, degrees per second. */
+    loiter_real roll_slew_deg_s;
     /* The velocity of the air towards the east and the north: positive east for a wind from the west. 0 where none is
      * known. */
     loiter_real wind_east_m_s, wind_north_m_s;
@@ -192,7 +195,7 @@ typedef struct {
 typedef struct { loiter_real east_m, north_m, radius_m; loiter_integer side; loiter_real velocity_east_m_s,
         velocity_north_m_s, wind_east_m_s, wind_north_m_s, limit_deg, command_limit_deg, gain, reserve, smoothing_s,
         negligible_wind, covered_s; loiter_integer search_steps; } loiter_Settings;
-typedef struct { loiter_real time_s, rate_deg_s, lag_s; } loiter_RollValues;
+typedef struct { loiter_real time_s, rate_deg_s, lag_s, slew_deg_s; } loiter_RollValues;
 typedef struct { loiter_RollValues roll; loiter_real delay_s, turn_ratio, quick_turn_ratio, course_lead_s,
         wind_east_m_s, wind_north_m_s, airspeed_m_s, turn_airspeed_m_s, overshoot_deg, turns_unknown,
         heading_bias_deg, bank_bias_deg; } loiter_VehicleEstimates;
@@ -214,8 +217,9 @@ typedef struct { loiter_real smoothing_s, interval_s; loiter_AirAverage air; loi
 typedef struct { loiter_real end_s, bank_deg, integral; } loiter_BankEntry;
 typedef struct { loiter_BankEntry at[128]; } loiter_BankEntry_ring_128;
 typedef struct { loiter_BankEntry_ring_128 *entries; } loiter_BankHistory;
-typedef struct { loiter_Clock clock; loiter_Observer observer; loiter_BankHistory history; loiter_Estimate present;
-        loiter_real bank_rate_deg_s, elapsed_s, model_error_deg; bool is_known; } loiter_Sensing;
+typedef struct { loiter_Clock clock; loiter_Observer observer; loiter_BankHistory history; loiter_real command_deg;
+        loiter_Estimate present; loiter_real bank_rate_deg_s, elapsed_s, model_error_deg; bool is_known; }
+        loiter_Sensing;
 typedef struct { loiter_real airspeed_m_s, tightest_m, planned_m; } loiter_TurnLimits;
 typedef struct { loiter_integer revision; bool wind_differs; loiter_real wind_east_m_s, wind_north_m_s;
         loiter_RollValues roll; loiter_real limit_deg; loiter_TurnLimits turns; loiter_real hold_deg; loiter_integer
@@ -228,8 +232,8 @@ typedef struct { loiter_integer u; loiter_real time_s, radius_m; } loiter_PathPi
 typedef struct { loiter_PathPiece at[12]; } loiter_PathPiece_ring_12;
 typedef struct { loiter_PathPiece_ring_12 *pieces; loiter_integer total, taken; loiter_real c, s; }
         loiter_GivenPath;
-typedef struct { loiter_integer bank, rate, current, next, last; loiter_real current_s, more, next_s, last_s,
-        displaced_s2; } loiter_Leads;
+typedef struct { loiter_integer bank, rate, command, current, next, last; loiter_real current_s, more, next_s,
+        last_s, displaced_s2; } loiter_Leads;
 typedef struct { loiter_real time_s, x, y, vx, vy, hx, hy; } loiter_RelativeState;
 typedef struct { loiter_real crosstrack, course_error, path_rate; } loiter_PathOffset;
 typedef struct { loiter_RelativeState state; loiter_PathOffset offset; loiter_real early_s; } loiter_ResponsePoint;

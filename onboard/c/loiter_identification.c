@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: cc33c409d01189f08ba349ff05f32387af09f2438819ca9b074cbeb231568d4f
+ * SHA-256 of the source: 10b161590b610f8d726ec144dd6e4c6a975dd2ccfaa35b69574baea6f3603165
  */
 #include "loiter_identification.h"
 
@@ -662,6 +662,17 @@ static inline real value_at(const Unknown *unknown, real index) {
     return unknown->declared + unknown->step * (index - unknown->at_index);
 }
 
+/* The step of a time above 0. */
+static inline RollStep roll_step(RollValues roll, real time_s) {
+    if (roll.lag_s == REAL(0.0)) {
+        return MAKE(RollStep){time_s, REAL(0.0), REAL(0.0)};
+    }
+    const real kept = real_exp(-time_s / roll.lag_s), lags = time_s / roll.lag_s;
+    /* The difference of large numbers for a short time, of which this is the series. */
+    return MAKE(RollStep){time_s, kept, lags < SHORT_LAGS ? REAL(0.5) - lags / REAL(12.0) : REAL(1.0) / lags - kept
+            / (REAL(1.0) - kept)};
+}
+
 /* The exact bank after `time_s` seconds under a constant command. */
 static inline real bank_after(real roll_time_s, real rate_deg_s, real bank_deg, real command_deg, real time_s) {
     if (roll_time_s == REAL(0.0) && rate_deg_s == REAL_INFINITY) {
@@ -681,22 +692,18 @@ static inline real bank_after(real roll_time_s, real rate_deg_s, real bank_deg, 
     return time_s <= limited_s ? command_deg - missing : command_deg;
 }
 
-/* The step of a time above 0. */
-static inline RollStep roll_step(RollValues roll, real time_s) {
-    const real kept = real_exp(-time_s / roll.lag_s), lags = time_s / roll.lag_s;
-    /* The difference of large numbers for a short time, of which this is the series. */
-    return MAKE(RollStep){time_s, kept, lags < SHORT_LAGS ? REAL(0.5) - lags / REAL(12.0) : REAL(1.0) / lags - kept
-            / (REAL(1.0) - kept)};
-}
-
 /* `value`, limited to the range from -`limit` to `limit`. */
 static inline real clip(real value, real limit) {
     /* Comparisons take a third of the time of `min` and `max`, and a law clips several values in each step. */
     return value > limit ? limit : value < -limit ? -limit : value;
 }
 
-/* The bank after a step under a constant command, where its rate has a lag. */
-static inline Bank lagging_after(RollValues roll, RollStep step, Bank now, real command_deg) {
+/* The bank after a step under a constant command. */
+static inline Bank bank_after_step(RollValues roll, RollStep step, Bank now, real command_deg) {
+    if (roll.lag_s == REAL(0.0)) {
+        return MAKE(Bank){bank_after(roll.time_s, roll.rate_deg_s, now.bank_deg, command_deg, step.time_s),
+                now.rate_deg_s};
+    }
     const real wanted_deg_s = (command_deg - now.bank_deg - REAL(0.5) * step.time_s * now.rate_deg_s) / roll.time_s;
     const real rate_deg_s = clip(wanted_deg_s + step.kept * (now.rate_deg_s - wanted_deg_s), roll.rate_deg_s);
     const real change_deg = step.time_s * (rate_deg_s + step.share * (now.rate_deg_s - rate_deg_s));
@@ -705,11 +712,7 @@ static inline Bank lagging_after(RollValues roll, RollStep step, Bank now, real 
 
 /* The bank after a short time under a constant command; exact without a lag of the bank rate. */
 static inline Bank roll_after(RollValues roll, Bank now, real command_deg, real time_s) {
-    if (roll.lag_s == REAL(0.0) || time_s == REAL(0.0)) {
-        return MAKE(Bank){bank_after(roll.time_s, roll.rate_deg_s, now.bank_deg, command_deg, time_s),
-                now.rate_deg_s};
-    }
-    return lagging_after(roll, roll_step(roll, time_s), now, command_deg);
+    return time_s > REAL(0.0) ? bank_after_step(roll, roll_step(roll, time_s), now, command_deg) : now;
 }
 
 /* The step of a model without its limit. */
@@ -717,7 +720,7 @@ static inline ModelStep step_of(real time_s, real lag_s) {
     if (lag_s == REAL(0.0)) {
         return MAKE(ModelStep){REAL(1.0) - real_exp(-STEP_S / time_s), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0)};
     }
-    const RollValues roll = MAKE(RollValues){time_s, REAL_INFINITY, lag_s};
+    const RollValues roll = MAKE(RollValues){time_s, REAL_INFINITY, lag_s, REAL_INFINITY};
     Bank one = MAKE(Bank){REAL(1.0), REAL(0.0)}, other = MAKE(Bank){REAL(0.0), REAL(1.0)};
     const real dt = STEP_S / (real)SUBSTEPS;
     for (integer pass_1 = 0; pass_1 < SUBSTEPS; pass_1++) {
@@ -759,7 +762,8 @@ static inline RollSettings roll_settings(RollValues declared, real delay_s) {
     for (integer i = 0; i < DELAYS; i++) {
         real_ring_14_append(&delay_logs, declared_log(&delay, (real)i));
     }
-    return MAKE(RollSettings){time, rate, delay, kinds, kind_logs, limits_deg, rate_logs, delay_logs};
+    return MAKE(RollSettings){time, rate, delay, declared.slew_deg_s, kinds, kind_logs, limits_deg, rate_logs,
+            delay_logs};
 }
 
 /* The settings for what is declared. */
@@ -862,7 +866,7 @@ static inline void estimate_anew(Weights *weights, const RollSettings *settings,
     real lag_s = share * sums->lag_s;
     lag_s = lag_s > NEGLIGIBLE_LAG_S ? lag_s : REAL(0.0);
     const RollValues roll = MAKE(RollValues){time_s, real_exp(cautious_estimate(&settings->rate, sums->rate)),
-            lag_s};
+            lag_s, settings->slew_deg_s};
     const real mean = sums->errors / (real)(MODELS * DELAYS);
     const real new_1 = weights->log_total + real_log(total);
     weights->total = total;

@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: cc33c409d01189f08ba349ff05f32387af09f2438819ca9b074cbeb231568d4f
+ * SHA-256 of the source: 10b161590b610f8d726ec144dd6e4c6a975dd2ccfaa35b69574baea6f3603165
  */
 #ifndef LOITER_IDENTIFICATION_H
 #define LOITER_IDENTIFICATION_H
@@ -21,9 +21,9 @@ typedef struct { loiter_ModelStep at[8]; } loiter_ModelStep_ring_8;
 typedef struct { loiter_real at[8]; } loiter_real_ring_8;
 typedef struct { loiter_real at[6]; } loiter_real_ring_6;
 typedef struct { loiter_real at[14]; } loiter_real_ring_14;
-typedef struct { loiter_Unknown time, rate, delay; loiter_ModelStep_ring_8 kinds; loiter_real_ring_8 kind_logs;
-        loiter_real_ring_6 limits_deg; loiter_real_ring_6 rate_logs; loiter_real_ring_14 delay_logs; }
-        loiter_RollSettings;
+typedef struct { loiter_Unknown time, rate, delay; loiter_real slew_deg_s; loiter_ModelStep_ring_8 kinds;
+        loiter_real_ring_8 kind_logs; loiter_real_ring_6 limits_deg; loiter_real_ring_6 rate_logs;
+        loiter_real_ring_14 delay_logs; } loiter_RollSettings;
 typedef struct { loiter_VehicleEstimates declared; loiter_real wind_known_s, limit_deg; loiter_RollSettings roll; }
         loiter_IdentificationSettings;
 typedef struct { loiter_Clock clock; loiter_real waited_s, used_s; } loiter_Stamps;

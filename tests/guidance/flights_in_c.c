@@ -13,7 +13,7 @@ static const double DEGREE = 180.0 / 3.14159265358979323846;
 /* A roll of first order, `Roll`, or of second order with dead time, `RollResponse`. */
 typedef struct {
     int64_t order;
-    double time_s, rate_deg_s, dead_time_s, damping, frequency, start_deg;
+    double time_s, rate_deg_s, slew_deg_s, dead_time_s, damping, frequency, start_deg;
 } RollKind;
 
 typedef struct {
@@ -22,7 +22,7 @@ typedef struct {
 
 typedef struct {
     RollKind kind;
-    double bank_deg, bank_rate_deg_s;
+    double bank_deg, bank_rate_deg_s, command_deg;
     Waiting waiting[WAITING];
     int first, count;
 } RollState;
@@ -57,7 +57,7 @@ typedef struct {
 
 static void begin_roll_state(RollState *roll, const RollKind *kind) {
     roll->kind = *kind;
-    roll->bank_deg = kind->start_deg;
+    roll->bank_deg = roll->command_deg = kind->start_deg;
     roll->bank_rate_deg_s = 0.0;
     roll->first = 0;
     roll->count = 1;
@@ -92,12 +92,21 @@ static void fly_roll(RollState *roll, double time_s) {
     }
 }
 
+/* The first order: the command that is followed counts with its mean. */
+static void follow(RollState *roll, double command_deg, double dt) {
+    const double change_deg = roll->kind.slew_deg_s * dt;
+    const double followed_deg = dt > 0.0 ? mean_command(roll->command_deg, command_deg, change_deg) : command_deg;
+    roll->command_deg = slewed_command(roll->command_deg, command_deg, change_deg);
+    roll->bank_deg = bank_after(roll->kind.time_s, roll->kind.rate_deg_s, roll->bank_deg, followed_deg, dt);
+}
+
 /* The bank at half time. */
 static double advance_roll(RollState *roll, double command_deg, double dt) {
     double halfway_deg;
     if (roll->kind.order == 1) {
-        halfway_deg = bank_after(roll->kind.time_s, roll->kind.rate_deg_s, roll->bank_deg, command_deg, 0.5 * dt);
-        roll->bank_deg = bank_after(roll->kind.time_s, roll->kind.rate_deg_s, halfway_deg, command_deg, 0.5 * dt);
+        follow(roll, command_deg, 0.5 * dt);
+        halfway_deg = roll->bank_deg;
+        follow(roll, command_deg, 0.5 * dt);
         return halfway_deg;
     }
     roll->waiting[(roll->first + roll->count) % WAITING] = (Waiting){dt, command_deg};
@@ -344,7 +353,7 @@ void fly_scene(const Scene *s, const Settings *settings, const VehicleEstimates 
         if (s->knows_roll) {
             vehicle.bank_deg = known_roll.bank_deg;
             vehicle.bank_rate_deg_s = known_roll.bank_rate_deg_s;
-            vehicle.estimates.roll = (RollValues){s->lag_s, s->roll.rate_deg_s, s->roll.order == 1 ? 0.0 : 0.5 / (s->roll.damping * s->roll.frequency)};
+            vehicle.estimates.roll = (RollValues){s->lag_s, s->roll.rate_deg_s, s->roll.order == 1 ? 0.0 : 0.5 / (s->roll.damping * s->roll.frequency), s->roll.slew_deg_s};
             vehicle.estimates.delay_s = s->delay_s + s->roll.dead_time_s;
         }
         advance(&memory, *settings, vehicle, link.latest, dt);

@@ -8,6 +8,7 @@ in `flights_in_c.c`, and draw the same random numbers. The flights are the same 
 import subprocess
 from ctypes import CDLL, POINTER, Structure, byref, c_bool, c_double, c_int64
 from functools import cache
+from math import inf
 from pathlib import Path
 from tempfile import mkdtemp
 from typing import NamedTuple
@@ -53,7 +54,9 @@ def numbers(names):
     return dict.fromkeys(names.split(), c_double)
 
 
-RollKind = structure("RollKind", order=c_int64, **numbers("time_s rate_deg_s dead_time_s damping frequency start_deg"))
+RollKind = structure(
+    "RollKind", order=c_int64, **numbers("time_s rate_deg_s slew_deg_s dead_time_s damping frequency start_deg")
+)
 Scene = structure(
     "Scene",
     **numbers("east_m north_m heading_east heading_north V turn_ratio wind_east_m_s wind_north_m_s limit_deg"),
@@ -99,10 +102,10 @@ def drawn(random, steps, width):
 def roll_kind(roll, start_deg):
     """The roll, and the lag of first order by which the law knows it: one of the same mean delay."""
     if isinstance(roll, Roll):
-        return RollKind(1, roll.time_s, roll.rate_deg_s, 0.0, 1.0, 1.0, start_deg), roll.time_s
+        return RollKind(1, roll.time_s, roll.rate_deg_s, roll.slew_deg_s, 0.0, 1.0, 1.0, start_deg), roll.time_s
     zeta = damping(roll.overshoot)
     frequency = rise_time(zeta) / roll.time_s
-    kind = RollKind(2, roll.time_s, roll.rate_deg_s, roll.dead_time_s, zeta, frequency, start_deg)
+    kind = RollKind(2, roll.time_s, roll.rate_deg_s, inf, roll.dead_time_s, zeta, frequency, start_deg)
     return kind, 2.0 * zeta / frequency
 
 
@@ -130,21 +133,21 @@ def vehicle_fields(start, aircraft, wind, noise, gust, air, step_s):
     }
 
 
-def fly_in_c(trial, gust=0.0, *, limit_s=LIMIT_S, knows_roll=False, track=False):
+def fly_in_c(trial, gust=0.0, *, roll=Roll(), band=Band(), limit_s=LIMIT_S, knows_roll=False, track=False):  # noqa: B008
     """The flight of the law with the aircraft of a `VariedTrial`, as `fly` flies `varied_point_mass`.
 
-    With `knows_roll` the law is given the bank that follows each of its commands, and the delay, from the first step;
-    all else is identified.
+    `roll` is declared. With `knows_roll` the law is given the bank that follows each of its commands, and the delay,
+    from the first step; all else is identified.
     """
     m, uav, link = trial.ideal, trial.declared, trial.downlink
-    law = LoiterEntry(m.orbit, uav, trial.known_wind)
-    steps, band, turns = int(limit_s / STEP_S) + 2, Band(), DIRECTIONS[m.orbit.turn]
+    law = LoiterEntry(m.orbit, uav, trial.known_wind, roll=roll)
+    steps, turns = int(limit_s / STEP_S) + 2, DIRECTIONS[m.orbit.turn]
     air, sensors = (np.random.default_rng(seed) for seed in np.random.SeedSequence(trial.seed).spawn(2))
-    roll, lag_s = roll_kind(trial.response, trial.start_bank_deg)
+    kind, lag_s = roll_kind(trial.response, trial.start_bank_deg)
     scene = Scene(
         **vehicle_fields(m.start, uav, m.wind, trial.noise, gust, air, STEP_S),
         turn_ratio=trial.turn_ratio,
-        roll=roll,
+        roll=kind,
         **{name: getattr(link, name) for name in link.__dataclass_fields__},
         radius_m=m.orbit.radius_m,
         direction=turns[0] if len(turns) == 1 else 0,

@@ -1,7 +1,7 @@
 """Identification of the vehicle in flight: roll response and delay, turn ratio, lead of the course, wind."""
 
 from itertools import pairwise
-from math import ceil, degrees, pi, radians, sin
+from math import ceil, degrees, inf, pi, radians, sin
 
 import numpy as np
 import pytest
@@ -60,7 +60,7 @@ START = Pose(-400.0, 120.0, 200.0)
 
 def identified(roll, delay_s, *, noise_deg=0.5, seconds=12.0, dt=0.02):
     """The estimate after reversals of the bank every two seconds, and the banks that were predicted for the present."""
-    random, settings = np.random.default_rng(4), roll_settings(RollValues(0.5, 60.0, 0.0), 0.1)
+    random, settings = np.random.default_rng(4), roll_settings(RollValues(0.5, 60.0, 0.0, inf), 0.1)
     memory, bank, banks, errors = begin_roll(NO_ROLL, settings), 0.0, [], []
     for i in range(round(seconds / dt)):
         command = 35.0 if (i * dt) % 4.0 < 2.0 else -35.0
@@ -100,7 +100,7 @@ def test_a_slow_roll_is_found():
 
 def test_a_lag_of_the_bank_rate_is_found():
     response = RollResponse(0.5, 0.1, 0.12, 80.0)
-    settings, roll = roll_settings(RollValues(0.5, 60.0, 0.0), 0.1), SecondOrderRoll(response)
+    settings, roll = roll_settings(RollValues(0.5, 60.0, 0.0, inf), 0.1), SecondOrderRoll(response)
     memory = begin_roll(NO_ROLL, settings)
     for i in range(600):
         command = 35.0 if i % 200 < 100 else -35.0
@@ -113,7 +113,7 @@ def test_a_lag_of_the_bank_rate_is_found():
 
 def test_a_rate_that_measurements_leave_open_is_taken_for_lower():
     """Small changes of bank show the time constant, but only that the rate limit is not very low."""
-    settings = roll_settings(RollValues(0.5, 60.0, 0.0), 0.1)
+    settings = roll_settings(RollValues(0.5, 60.0, 0.0, inf), 0.1)
     memory, bank = start_models(begin_roll(NO_ROLL, settings), 0.0), 0.0
     for i in range(300):
         command = 12.0 if i % 100 < 50 else -12.0
@@ -128,7 +128,7 @@ def test_a_rate_that_measurements_leave_open_is_taken_for_lower():
 @pytest.mark.parametrize("delay_s", [0.0, 0.1, 0.6])
 @pytest.mark.parametrize("roll", [Roll(0.1, 100.0), Roll(0.5, 60.0), Roll(1.2, 45.0)])
 def test_before_anything_is_measured_the_estimate_is_what_is_declared(roll, delay_s):
-    settings = roll_settings(RollValues(roll.time_s, roll.rate_deg_s, 0.0), delay_s)
+    settings = roll_settings(RollValues(roll.time_s, roll.rate_deg_s, 0.0, inf), delay_s)
     estimate = begin_roll(NO_ROLL, settings).weights.estimate
     assert estimate.delay_s == pytest.approx(delay_s, abs=1e-9)
     assert estimate.roll.time_s == pytest.approx(roll.time_s)
@@ -137,14 +137,14 @@ def test_before_anything_is_measured_the_estimate_is_what_is_declared(roll, dela
 
 @pytest.mark.parametrize("delay_s", [1.3, 2.0, 1e6])
 def test_a_delay_beyond_the_longest_counts_as_that(delay_s):
-    settings = roll_settings(RollValues(0.5, 60.0, 0.0), delay_s)
+    settings = roll_settings(RollValues(0.5, 60.0, 0.0, inf), delay_s)
     memory = fly_models(add_measured_bank(begin_roll(NO_ROLL, settings), 0.0), settings, 30.0, 0.5)
     assert memory.weights.estimate.delay_s == pytest.approx(1.3, abs=1e-6)
 
 
 def test_a_long_flight_of_wrong_predictions_leaves_the_probabilities_finite():
     """Of a vehicle that banks the other way: the probabilities of all pairs fall, by the same factor."""
-    settings = roll_settings(RollValues(0.5, 60.0, 0.0), 0.1)
+    settings = roll_settings(RollValues(0.5, 60.0, 0.0, inf), 0.1)
     memory = begin_roll(NO_ROLL, settings)
     for i in range(6000):
         command_deg = 35.0 if i % 100 < 50 else -35.0
@@ -156,7 +156,7 @@ def test_a_long_flight_of_wrong_predictions_leaves_the_probabilities_finite():
 
 
 def test_a_constant_bank_teaches_nothing_and_makes_nothing_forgotten():
-    settings = roll_settings(RollValues(0.5, 60.0, 0.0), 0.1)
+    settings = roll_settings(RollValues(0.5, 60.0, 0.0, inf), 0.1)
     memory = start_models(begin_roll(NO_ROLL, settings), 20.0)
     for _ in range(3000):
         memory = fly_models(add_measured_bank(memory, 20.0), settings, 20.0, 0.02)
@@ -167,7 +167,7 @@ def test_a_constant_bank_teaches_nothing_and_makes_nothing_forgotten():
 @pytest.mark.parametrize("dt", [0.0025, 0.02, 0.05, 0.1, 0.5])
 def test_a_measured_bank_is_compared_with_all_models_by_their_next_step(dt):
     """In steps of 20 ms, with a fifth of them in each; in longer ones with all."""
-    settings = roll_settings(RollValues(0.5, 60.0, 0.0), 0.1)
+    settings = roll_settings(RollValues(0.5, 60.0, 0.0, inf), 0.1)
     memory, compared = start_models(begin_roll(NO_ROLL, settings), 0.0), []
     for i in range(round(4.0 / dt)):
         memory = fly_models(add_measured_bank(memory, 10.0 * sin(i * dt)), settings, 30.0, dt)

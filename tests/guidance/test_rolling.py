@@ -7,7 +7,20 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from loiter.errors import InvalidArgument
-from loiter.guidance.vehicle import INSTANT_ROLL, Bank, Roll, RollValues, clip, demand_deg, roll_after, turn_delay
+from loiter.guidance.vehicle import (
+    INSTANT_ROLL,
+    Bank,
+    Roll,
+    Rolling,
+    RollValues,
+    clip,
+    coasted_deg,
+    demand_deg,
+    mean_command,
+    roll_after,
+    slewed_command,
+    turn_delay,
+)
 
 LIMIT_DEG = 35.0
 rolls = st.builds(Roll, st.floats(0.05, 2.0), st.sampled_from([15.0, 60.0, 300.0, inf]))
@@ -88,7 +101,9 @@ def test_a_reversal_displaces_the_aircraft_towards_the_new_turn(reversal):
 
 
 @pytest.mark.parametrize("begin", [Bank(-35.0, 0.0), Bank(0.0, 50.0), Bank(30.0, -60.0)])
-@pytest.mark.parametrize("roll", [RollValues(0.7, 60.0, 0.5), RollValues(0.3, 120.0, 0.2), RollValues(1.0, 30.0, 0.6)])
+@pytest.mark.parametrize(
+    "roll", [RollValues(0.7, 60.0, 0.5, inf), RollValues(0.3, 120.0, 0.2, inf), RollValues(1.0, 30.0, 0.6, inf)]
+)
 def test_a_bank_whose_rate_lags_delays_a_turn(roll, begin):
     """Beside small steps of the differential equation, under the same demands."""
     target, step, (bank, rate), missing, moment = 15.0, 1e-3, begin, 0.0, 0.0
@@ -97,15 +112,56 @@ def test_a_bank_whose_rate_lags_delays_a_turn(roll, begin):
         rate = clip(rate + ((command - bank) / roll.time_s - rate) / roll.lag_s * step, roll.rate_deg_s)
         part = (tan(radians(target)) - tan(radians(bank))) * step
         missing, moment, bank = missing + part, moment + part * i * step, bank + rate * step
-    delay = turn_delay(roll, begin, target, LIMIT_DEG)
+    delay = turn_delay(roll, Rolling(begin, 0.0), target, LIMIT_DEG)
     assert delay.missing_s == pytest.approx(missing, abs=0.01)
     assert delay.moment_s2 == pytest.approx(moment, abs=0.02)
+
+
+@pytest.mark.parametrize("lag_s", [0.0, 0.05, 0.3])
+@pytest.mark.parametrize(("time_s", "rate", "slew"), [(0.4, 70.0, 90.0), (0.2, 100.0, 40.0), (0.6, 40.0, 200.0)])
+@pytest.mark.parametrize("ahead", [-20.0, 25.0])
+@pytest.mark.parametrize(("begin", "target"), [(-50.0, 50.0), (-50.0, 20.0), (10.0, -30.0), (12.0, 15.0)])
+def test_a_command_with_a_slew_rate_delays_a_turn(lag_s, time_s, rate, slew, ahead, begin, target):
+    """Beside small steps: first the command follows the demand, then the bank the command."""
+    roll, step, bank, turning, missing, moment = RollValues(time_s, rate, lag_s, slew), 2e-3, begin, 0.0, 0.0, 0.0
+    command = clip(begin + ahead, 50.0)
+    delay = turn_delay(roll, Rolling(Bank(begin, 0.0), command), target, 50.0)
+    for i in range(5000):
+        demand = demand_deg(roll, Bank(bank, turning), target, 50.0)
+        command += clip(demand - command, slew * step)
+        wanted = (command - bank) / time_s
+        turning = clip(turning + (wanted - turning) * (step / lag_s if lag_s else 1.0), rate)
+        part = (tan(radians(target)) - tan(radians(bank))) * step
+        missing, moment, bank = missing + part, moment + part * i * step, bank + turning * step
+    assert bank == pytest.approx(target, abs=0.01)
+    assert delay.missing_s == pytest.approx(missing, abs=0.03 * (tan(radians(50.0)) + abs(tan(radians(target)))))
+    assert delay.moment_s2 == pytest.approx(moment, abs=0.1)
+
+
+@pytest.mark.parametrize("ahead", [-25.0, -3.0, 0.0, 10.0, 28.0])
+def test_a_bank_goes_on_until_the_command_has_come_back(ahead):
+    roll, step, bank, command = RollValues(0.4, 70.0, 0.0, 90.0), 1e-5, 5.0, 5.0 + ahead
+    found = coasted_deg(roll, Rolling(Bank(bank, 0.0), command))
+    while (command - bank) * ahead > 0.0:
+        command -= clip(ahead, 90.0 * step)
+        bank += (command - bank) / roll.time_s * step
+    assert found == pytest.approx(bank, abs=0.01)
+
+
+@given(banks, banks, st.floats(1e-3, 200.0))
+def test_the_mean_of_a_command_on_its_way(begin, demand, change):
+    """It moves at a constant rate and then stays."""
+    steps = 1000
+    path = [slewed_command(begin, demand, change * (i + 0.5) / steps) for i in range(steps)]
+    assert mean_command(begin, demand, change) == pytest.approx(sum(path) / steps, abs=1e-3 * change)
+    assert mean_command(begin, demand, inf) == slewed_command(begin, demand, inf) == demand
 
 
 @pytest.mark.parametrize(("begin", "target"), [(-35.0, 15.0), (0.0, 35.0), (20.0, 0.0)])
 def test_a_short_lag_of_the_rate_delays_a_turn_like_none(begin, target):
     none, short = (
-        turn_delay(RollValues(0.5, 60.0, lag_s), Bank(begin, 0.0), target, LIMIT_DEG) for lag_s in (0.0, 1e-4)
+        turn_delay(RollValues(0.5, 60.0, lag_s, inf), Rolling(Bank(begin, 0.0), begin), target, LIMIT_DEG)
+        for lag_s in (0.0, 1e-4)
     )
     assert short.missing_s == pytest.approx(none.missing_s, abs=0.01)
     assert short.moment_s2 == pytest.approx(none.moment_s2, abs=0.01)
@@ -127,12 +183,14 @@ def test_a_demand_stays_within_the_limit_and_points_to_the_target(roll, bank, ta
 def test_an_impossible_response_is_refused(time, rate):
     with pytest.raises(InvalidArgument, match=r"^roll (time_s|rate_deg_s) is "):
         Roll(time, rate)
+    with pytest.raises(InvalidArgument, match=r"^roll slew_deg_s is "):
+        Roll(0.5, 60.0, 0.0)
 
 
 @pytest.mark.parametrize("time_s", [1e-300, 1e-18, 1e-9, 1e-4, 0.0299, 0.0301])
 def test_a_bank_whose_rate_has_a_lag_goes_on_however_short_a_step_is(time_s):
     """A step of 7e-18 s was a division by zero, and a bank that is no number in C; also against 1,000 small steps."""
-    roll, now = RollValues(0.5, 1e3, 0.3), Bank(5.0, 20.0)
+    roll, now = RollValues(0.5, 1e3, 0.3, inf), Bank(5.0, 20.0)
     found, dt, bank_deg, rate_deg_s = roll_after(roll, now, 30.0, time_s), time_s / 1000, 5.0, 20.0
     for _ in range(1000):
         bank_deg, rate_deg_s = (

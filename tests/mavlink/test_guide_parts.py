@@ -5,7 +5,7 @@ import math
 import random
 import subprocess
 import sys
-from math import degrees, isnan, radians, tan
+from math import degrees, inf, isnan, radians, tan
 from types import SimpleNamespace
 
 import numpy as np
@@ -382,13 +382,12 @@ def test_settings_of_arduplane_in_both_generations_of_names():
 def test_settings_of_px4():
     known = {"FW_AIRSPD_TRIM": 15.0, "FW_R_LIM": 70.0, "FW_R_TC": 0.4, "FW_R_RMAX": 70.0, "FW_PN_R_SLEW_MAX": 60.0}
     settings = autopilot_settings(Autopilot.PX4, {**known, "COM_OBL_RC_ACT": 5.0})
-    assert (settings.airspeed_m_s, settings.guided_bank_deg, settings.roll) == (15.0, 60.0, Roll(0.2, 60.0))
+    assert (settings.airspeed_m_s, settings.guided_bank_deg, settings.roll) == (15.0, 60.0, Roll(0.2, 70.0, 60.0))
     assert settings.loss_action == "hold"
     assert autopilot_settings(Autopilot.PX4, known).loss_action == "what COM_OBL_RC_ACT says"
     # A rate of 0 means no limit.
-    assert (
-        autopilot_settings(Autopilot.PX4, {**known, "FW_R_RMAX": 0.0, "FW_PN_R_SLEW_MAX": 0.0}).roll.rate_deg_s == 90.0
-    )
+    free = autopilot_settings(Autopilot.PX4, {**known, "FW_R_RMAX": 0.0, "FW_PN_R_SLEW_MAX": 0.0})
+    assert free.roll == Roll(0.2, 90.0, inf)
 
 
 # States.

@@ -122,11 +122,12 @@ static void law(void) {
     static loiter_identification known;
     loiter_law_config config = loiter_law_defaults(18, 35, 90, side());
     loiter_real *const configured[] = {&config.radius_m,      &config.airspeed_m_s,    &config.bank_limit_deg,
-                                       &config.roll_time_s,   &config.roll_rate_deg_s, &config.delay_s,
+                                       &config.roll_time_s,   &config.roll_rate_deg_s, &config.roll_slew_deg_s,
+                                       &config.delay_s,
                                        &config.wind_east_m_s, &config.wind_north_m_s,  &config.reserve,
                                        &config.smoothing_s,   &config.gain};
     for (unsigned k = byte() % 4; k > 0; k--) {
-        loiter_real *const one = configured[byte() % 11];
+        loiter_real *const one = configured[byte() % 12];
         *one = byte() % 2 ? number(100) : *one * 2 * (loiter_real)byte() / 256;
     }
     config.search_steps = byte() % 2 ? integer() % 32 : 0;

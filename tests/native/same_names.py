@@ -14,7 +14,7 @@ class TurnOnset(NamedTuple):
 
 def two_structures(x: float) -> float:
     mine = TurnOnset(x)
-    return mine.x + turn_onset(RollValues(x, x, x), x, x, x).lead_s
+    return mine.x + turn_onset(RollValues(x, x, x, x), x, x, x).lead_s
 
 
 def two_constants(x: float) -> float:

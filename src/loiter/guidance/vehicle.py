@@ -103,12 +103,14 @@ class TurnOnset(NamedTuple):
 class RollValues(NamedTuple):
     """A roll response as numbers: `Roll` without checks, and the lag of the bank rate, seconds.
 
-    lag rate' = (command - bank)/time - rate, limited to `rate_deg_s`. With a lag of 0 it is of first order.
+    lag rate' = (command - bank)/time - rate, limited to `rate_deg_s`. With a lag of 0 it is of first order. The command
+    itself changes by no more than `slew_deg_s`, degrees per second.
     """
 
     time_s: float
     rate_deg_s: float
     lag_s: float
+    slew_deg_s: float
 
 
 class Bank(NamedTuple):
@@ -116,6 +118,13 @@ class Bank(NamedTuple):
 
     bank_deg: float
     rate_deg_s: float
+
+
+class Rolling(NamedTuple):
+    """A bank, and the command that it follows at present, which counts only where that has a slew rate; degrees."""
+
+    now: Bank
+    command_deg: float
 
 
 class TurnDelay(NamedTuple):
@@ -133,25 +142,35 @@ class TurnDelay(NamedTuple):
 class Roll:
     """The roll response: bank rate = (command - bank)/`time_s`, limited to `rate_deg_s`.
 
-    A time constant of 0 with an infinite rate describes an aircraft that banks instantly. Raises `InvalidArgument` for
-    a time constant that is negative or not finite, and for a rate that is not positive.
+    A law changes its command by `slew_deg_s` degrees per second at most: an autopilot that limits the rate of its bank
+    setpoint then follows it. A time constant of 0 with infinite rates describes an aircraft that banks instantly.
+    Raises `InvalidArgument` for a time constant that is negative or not finite, and for rates that are not positive.
     """
 
     time_s: float = 0.5
     rate_deg_s: float = 60.0
+    slew_deg_s: float = inf
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "time_s", not_negative("roll time_s", self.time_s, "seconds"))
-        if not as_float(self.rate_deg_s) > 0.0:
-            raise InvalidArgument("roll rate_deg_s", f"is {self.rate_deg_s}: it must be above 0 degrees per second")
+        for name in ("rate_deg_s", "slew_deg_s"):
+            if not as_float(getattr(self, name)) > 0.0:
+                raise InvalidArgument(
+                    f"roll {name}", f"is {getattr(self, name)}: it must be above 0 degrees per second"
+                )
+
+    @property
+    def values(self) -> RollValues:
+        """The response as numbers."""
+        return RollValues(self.time_s, self.rate_deg_s, 0.0, self.slew_deg_s)
 
     def demand_deg(self, bank_deg: float, target_deg: float, limit_deg: float) -> float:
         """`demand_deg` for this response."""
-        return demand_deg(RollValues(self.time_s, self.rate_deg_s, 0.0), Bank(bank_deg, 0.0), target_deg, limit_deg)
+        return demand_deg(self.values, Bank(bank_deg, 0.0), target_deg, limit_deg)
 
     def onset(self, bank_deg: float, target_deg: float, limit_deg: float) -> TurnOnset:
         """`turn_onset` for this response."""
-        return turn_onset(RollValues(self.time_s, self.rate_deg_s, 0.0), bank_deg, target_deg, limit_deg)
+        return turn_onset(self.values, bank_deg, target_deg, limit_deg)
 
     def bank_after(self, bank_deg: float, command_deg: float, time_s: float) -> float:
         """`bank_after` for this response."""
@@ -161,9 +180,12 @@ class Roll:
 INSTANT_ROLL = Roll(0.0, inf)
 
 
-def command_gain(roll_time_s: float) -> float:
-    """How many times the change of bank that is wanted is commanded."""
-    return min(max(roll_time_s / QUICKEST_S, 1.0), COMMAND_GAIN)
+def command_gain(roll: RollValues) -> float:
+    """How many times the change of bank that is wanted is commanded.
+
+    With more than the last number the command would have to return to the target faster than its slew rate.
+    """
+    return min(max(roll.time_s / QUICKEST_S, 1.0), COMMAND_GAIN, 1.0 + roll.slew_deg_s / roll.rate_deg_s)
 
 
 def rate_gain_s(roll: RollValues) -> float:
@@ -172,7 +194,7 @@ def rate_gain_s(roll: RollValues) -> float:
     With the gain K the bank then obeys tau lag bank'' + (tau + this) bank' + K (bank - target) = 0, with the damping
     `DAMPING` at least. It is 0 without a lag.
     """
-    return max(2.0 * DAMPING * sqrt(command_gain(roll.time_s) * roll.time_s * roll.lag_s) - roll.time_s, 0.0)
+    return max(2.0 * DAMPING * sqrt(command_gain(roll) * roll.time_s * roll.lag_s) - roll.time_s, 0.0)
 
 
 def demand_deg(roll: RollValues, now: Bank, target_deg: float, limit_deg: float) -> float:
@@ -182,8 +204,22 @@ def demand_deg(roll: RollValues, now: Bank, target_deg: float, limit_deg: float)
     """
     if roll.time_s == 0.0:
         return target_deg
-    change_deg = command_gain(roll.time_s) * (target_deg - now.bank_deg) - rate_gain_s(roll) * now.rate_deg_s
+    change_deg = command_gain(roll) * (target_deg - now.bank_deg) - rate_gain_s(roll) * now.rate_deg_s
     return clip(now.bank_deg + change_deg, limit_deg)
+
+
+def slewed_command(command_deg: float, demand_deg: float, change_deg: float) -> float:
+    """The command that follows `command_deg` on the way to a demand, where it may change by `change_deg`."""
+    missing_deg = demand_deg - command_deg
+    return demand_deg if abs(missing_deg) <= change_deg else command_deg + clip(missing_deg, change_deg)
+
+
+def mean_command(command_deg: float, demand_deg: float, change_deg: float) -> float:
+    """The mean of the command over the time in which it may change by `change_deg` on the way to a demand."""
+    missing_deg = demand_deg - command_deg
+    if abs(missing_deg) >= change_deg:
+        return command_deg + 0.5 * clip(missing_deg, change_deg)
+    return demand_deg - 0.5 * missing_deg * abs(missing_deg) / change_deg
 
 
 def bank_after(roll_time_s: float, rate_deg_s: float, bank_deg: float, command_deg: float, time_s: float) -> float:
@@ -215,13 +251,17 @@ class RollStep(NamedTuple):
 
 def roll_step(roll: RollValues, time_s: float) -> RollStep:
     """The step of a time above 0."""
+    if roll.lag_s == 0.0:
+        return RollStep(time_s, 0.0, 0.0)
     kept, lags = exp(-time_s / roll.lag_s), time_s / roll.lag_s
     # The difference of large numbers for a short time, of which this is the series.
     return RollStep(time_s, kept, 0.5 - lags / 12.0 if lags < SHORT_LAGS else 1.0 / lags - kept / (1.0 - kept))
 
 
-def lagging_after(roll: RollValues, step: RollStep, now: Bank, command_deg: float) -> Bank:
-    """The bank after a step under a constant command, where its rate has a lag."""
+def bank_after_step(roll: RollValues, step: RollStep, now: Bank, command_deg: float) -> Bank:
+    """The bank after a step under a constant command."""
+    if roll.lag_s == 0.0:
+        return Bank(bank_after(roll.time_s, roll.rate_deg_s, now.bank_deg, command_deg, step.time_s), now.rate_deg_s)
     wanted_deg_s = (command_deg - now.bank_deg - 0.5 * step.time_s * now.rate_deg_s) / roll.time_s
     rate_deg_s = clip(wanted_deg_s + step.kept * (now.rate_deg_s - wanted_deg_s), roll.rate_deg_s)
     change_deg = step.time_s * (rate_deg_s + step.share * (now.rate_deg_s - rate_deg_s))
@@ -230,36 +270,42 @@ def lagging_after(roll: RollValues, step: RollStep, now: Bank, command_deg: floa
 
 def roll_after(roll: RollValues, now: Bank, command_deg: float, time_s: float) -> Bank:
     """The bank after a short time under a constant command; exact without a lag of the bank rate."""
-    if roll.lag_s == 0.0 or time_s == 0.0:
-        return Bank(bank_after(roll.time_s, roll.rate_deg_s, now.bank_deg, command_deg, time_s), now.rate_deg_s)
-    return lagging_after(roll, roll_step(roll, time_s), now, command_deg)
+    return bank_after_step(roll, roll_step(roll, time_s), now, command_deg) if time_s > 0.0 else now
 
 
-def turn_delay(roll: RollValues, now: Bank, target_deg: float, limit_deg: float) -> TurnDelay:
+def turn_delay(roll: RollValues, rolling: Rolling, target_deg: float, limit_deg: float) -> TurnDelay:
     """How a change of bank under `demand_deg` delays a turn. The turn rate is proportional to tan(bank)."""
-    if roll.lag_s == 0.0:
-        return first_order_delay(roll, now.bank_deg, target_deg, limit_deg)
-    return lagging_delay(roll, now, target_deg, limit_deg)
+    if roll.lag_s == 0.0 and roll.slew_deg_s == inf:
+        return first_order_delay(roll, rolling.now.bank_deg, target_deg, limit_deg)
+    return stepped_delay(roll, rolling, target_deg, limit_deg)
 
 
-def lagging_delay(roll: RollValues, now: Bank, target_deg: float, limit_deg: float) -> TurnDelay:
-    """`turn_delay` of a bank whose rate has a lag: flown in steps until the change is small; the rest is linear."""
-    gain, braking_s, tangent = command_gain(roll.time_s), rate_gain_s(roll), tan(radians(target_deg))
+def stepped_delay(roll: RollValues, rolling: Rolling, target_deg: float, limit_deg: float) -> TurnDelay:
+    """`turn_delay` of a bank whose rate has a lag, or whose command a slew rate.
+
+    It is flown in steps until the change is small; the rest is linear.
+    """
+    now, command_deg = rolling
+    gain, braking_s, tangent = command_gain(roll), rate_gain_s(roll), tan(radians(target_deg))
     missing_s, moment_s2, time_s, is_limited, left = 0.0, 0.0, 0.0, True, STEPS
     small_deg, now = small_change_deg(roll), Bank(now.bank_deg, clip(now.rate_deg_s, roll.rate_deg_s))
-    dt = (abs(target_deg - now.bank_deg) / roll.rate_deg_s + SETTLING * (roll.time_s + braking_s)) / STEPS
-    half_step, step = roll_step(roll, 0.5 * dt), roll_step(roll, dt)
+    slowest_s = max(abs(target_deg - now.bank_deg) / roll.rate_deg_s, abs(target_deg - command_deg) / roll.slew_deg_s)
+    dt = (slowest_s + SETTLING * (roll.time_s + braking_s)) / STEPS
+    half_step, step, slew_deg = roll_step(roll, 0.5 * dt), roll_step(roll, dt), roll.slew_deg_s * dt
     while left > 0:
-        change_deg = gain * (target_deg - now.bank_deg) - braking_s * now.rate_deg_s
-        is_limited = abs(now.bank_deg + change_deg) > limit_deg
+        wanted_deg = now.bank_deg + gain * (target_deg - now.bank_deg) - braking_s * now.rate_deg_s
+        is_limited = abs(wanted_deg) > limit_deg or abs(wanted_deg - command_deg) > slew_deg
         if not is_limited and abs(target_deg - now.bank_deg) + roll.lag_s * abs(now.rate_deg_s) < small_deg:
             break
-        half = lagging_after(roll, half_step, now, clip(now.bank_deg + change_deg, limit_deg))
+        wanted_deg = clip(wanted_deg, limit_deg)
+        half = bank_after_step(roll, half_step, now, mean_command(command_deg, wanted_deg, 0.5 * slew_deg))
         # The demand at half time counts for the whole step.
-        change_deg = gain * (target_deg - half.bank_deg) - braking_s * half.rate_deg_s
-        after = lagging_after(roll, step, now, clip(half.bank_deg + change_deg, limit_deg))
+        wanted_deg = half.bank_deg + gain * (target_deg - half.bank_deg) - braking_s * half.rate_deg_s
+        wanted_deg = clip(wanted_deg, limit_deg)
+        after = bank_after_step(roll, step, now, mean_command(command_deg, wanted_deg, slew_deg))
         part_s = dt * (tangent - tan(radians(0.5 * (now.bank_deg + after.bank_deg))))
         missing_s, moment_s2 = missing_s + part_s, moment_s2 + part_s * (time_s + 0.5 * dt)
+        command_deg = slewed_command(command_deg, wanted_deg, slew_deg)
         now, time_s, left = after, time_s + dt, left - 1
     slope = radians(1.0 + tangent * tangent)
     rest = linear_delay(roll, now.bank_deg - target_deg, now.rate_deg_s, is_limited)
@@ -276,7 +322,7 @@ def first_order_delay(roll: RollValues, bank_deg: float, target_deg: float, limi
     the parts of the change take effect, and the squares of these times, are summed over these three ranges by Gauss's
     rules.
     """
-    tau, p, gain, m = roll.time_s, roll.rate_deg_s, command_gain(roll.time_s), abs(target_deg - bank_deg)
+    tau, p, gain, m = roll.time_s, roll.rate_deg_s, command_gain(roll), abs(target_deg - bank_deg)
     last_s, change = tau / gain, tan(radians(target_deg)) - tan(radians(bank_deg))
     g = max(limit_deg - (target_deg if target_deg >= bank_deg else -target_deg), 0.0)
     # The missing bank below which a demand is within the bank limit, and that at which the rate leaves its limit.
@@ -311,7 +357,7 @@ def first_order_delay(roll: RollValues, bank_deg: float, target_deg: float, limi
 
 def small_change_deg(roll: RollValues) -> float:
     """The largest change of bank that counts as infinitely small: its rate is not limited."""
-    return min(SMALL_CHANGE_DEG, roll.rate_deg_s * roll.time_s / command_gain(roll.time_s))
+    return min(SMALL_CHANGE_DEG, roll.rate_deg_s * roll.time_s / command_gain(roll))
 
 
 def linear_delay(roll: RollValues, beyond_deg: float, rate_deg_s: float, is_limited: bool) -> TurnDelay:
@@ -320,15 +366,30 @@ def linear_delay(roll: RollValues, beyond_deg: float, rate_deg_s: float, is_limi
     With a = tau lag/K and b = (tau + rate gain)/K the missing bank m obeys a m'' + b m' + m = 0, so that its integral
     over time is b m + a m', and that of m t is b times this less a m. A demand at the bank limit has the gain 1.
     """
-    gain = 1.0 if is_limited else command_gain(roll.time_s)
+    gain = 1.0 if is_limited else command_gain(roll)
     a, b = roll.time_s * roll.lag_s / gain, (roll.time_s + (0.0 if is_limited else rate_gain_s(roll))) / gain
     missing_s = -b * beyond_deg - a * rate_deg_s
     return TurnDelay(missing_s, b * missing_s + a * beyond_deg)
 
 
-def coasting_s(roll: RollValues) -> float:
-    """How long the present bank rate goes on in effect, seconds: so far ahead is the bank of a small change."""
-    return roll.time_s * roll.lag_s / (roll.time_s + rate_gain_s(roll)) if roll.lag_s > 0.0 else 0.0
+def coasted_deg(roll: RollValues, rolling: Rolling) -> float:
+    """The bank to which it goes on where it is at present while no change is wanted, degrees.
+
+    A lag of the bank rate keeps it for a time in effect. A command that lies q ahead of the bank returns to it at the
+    slew rate S: with q' = -S - q/tau, the bank meanwhile changes by q - S tau ln(1 + q/(S tau)).
+    """
+    now, command_deg = rolling
+    bank_deg = now.bank_deg
+    if roll.lag_s > 0.0:
+        bank_deg += roll.time_s * roll.lag_s / (roll.time_s + rate_gain_s(roll)) * now.rate_deg_s
+    if roll.slew_deg_s < inf and roll.time_s > 0.0:
+        ahead_deg, slew_deg = (
+            clip(command_deg - now.bank_deg, roll.rate_deg_s * roll.time_s),
+            roll.slew_deg_s * roll.time_s,
+        )
+        change_deg = abs(ahead_deg) - slew_deg * log(1.0 + abs(ahead_deg) / slew_deg)
+        bank_deg += change_deg if ahead_deg > 0.0 else -change_deg
+    return bank_deg
 
 
 def turn_onset(roll: RollValues, bank_deg: float, target_deg: float, limit_deg: float) -> TurnOnset:
@@ -336,14 +397,14 @@ def turn_onset(roll: RollValues, bank_deg: float, target_deg: float, limit_deg: 
     change = tan(radians(target_deg)) - tan(radians(bank_deg))
     if change == 0.0:
         return small_onset(roll)
-    delay = turn_delay(roll, Bank(bank_deg, 0.0), target_deg, limit_deg)
+    delay = turn_delay(roll, Rolling(Bank(bank_deg, 0.0), bank_deg), target_deg, limit_deg)
     lead_s = delay.missing_s / change
     return TurnOnset(lead_s, max(2.0 * delay.moment_s2 / change - lead_s * lead_s, 0.0))
 
 
 def small_onset(roll: RollValues) -> TurnOnset:
     """When a small change of bank takes effect."""
-    gain = command_gain(roll.time_s)
+    gain = command_gain(roll)
     first_s = (roll.time_s + rate_gain_s(roll)) / gain
     return TurnOnset(first_s, max(first_s * first_s - 2.0 * roll.time_s * roll.lag_s / gain, 0.0))
 

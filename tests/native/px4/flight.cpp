@@ -24,12 +24,12 @@ static bool happens(const char *what) { return strcmp(scenario, what) == 0; }
 /* ---- Parameters ------------------------------------------------------------------------------------------------- */
 
 static const char *const NAMES[] {"LOIT_LAT", "LOIT_LON", "LOIT_RADIUS", "LOIT_DIR", "LOIT_ROLL_T", "LOIT_ROLL_RATE",
-                                  "LOIT_DELAY", "FW_AIRSPD_TRIM", "FW_R_LIM"};
-static const double VALUES[] {LATITUDE_DEG * 1e7, LONGITUDE_DEG * 1e7, 60.0, 0.0, ROLL_S, 200.0, 0.02, AIRSPEED_M_S, 50.0};
+                                  "LOIT_DELAY", "FW_AIRSPD_TRIM", "FW_R_LIM", "FW_PN_R_SLEW_MAX"};
+static const double VALUES[] {LATITUDE_DEG * 1e7, LONGITUDE_DEG * 1e7, 60.0, 0.0, ROLL_S, 200.0, 0.02, AIRSPEED_M_S, 50.0, 90.0};
 
 param_t param_find(const char *name)
 {
-    for (int i = 0; i < 9; i++) {
+    for (int i = 0; i < 10; i++) {
         if (strcmp(name, NAMES[i]) == 0) {
             return i;
         }

@@ -24,9 +24,9 @@ from loiter.guidance.entry.plan import (
 )
 from loiter.guidance.entry.route import is_holding, offset_of
 from loiter.guidance.entry.tracking import target_bank
-from loiter.guidance.estimation.observer import Sensing, first_sensing, measure_gusts_anew, sense
+from loiter.guidance.estimation.observer import Sensing, first_sensing, following, measure_gusts_anew, sense
 from loiter.guidance.protocol import State
-from loiter.guidance.vehicle import Bank, VehicleEstimates, VehicleModel, clip, demand_deg
+from loiter.guidance.vehicle import Bank, VehicleEstimates, VehicleModel, clip, demand_deg, slewed_command
 from loiter.kernel.wind.wind_search import UNLIMITED
 from loiter.kernel.words import ABSENT
 
@@ -104,7 +104,9 @@ def advance(memory: Memory, settings: Settings, vehicle: VehicleModel, measureme
 def prepare(memory: Memory, settings: Settings, vehicle: VehicleModel, measurement: State) -> Memory:
     """The memory after a measurement: what is known, the present plan, and a search begun for another if it is due."""
     smoothing_s, covered_s = settings.smoothing_s, settings.covered_s
-    memory = memory._replace(sensing=sense(memory.sensing, vehicle, measurement, memory.step_s, smoothing_s, covered_s))
+    sensing = sense(memory.sensing, vehicle, measurement, memory.step_s, smoothing_s, covered_s)
+    command_deg = memory.command.bank_deg if memory.step_s > 0.0 else vehicle.bank_deg
+    memory = memory._replace(sensing=following(sensing, command_deg))
     if not memory.sensing.is_known:
         return memory._replace(planning=drop_search(memory.planning))
     if vehicle.revision != memory.limits.revision:
@@ -128,7 +130,9 @@ def conclude(memory: Memory, settings: Settings, vehicle: VehicleModel, dt: floa
     )
     target_deg = clip(target_deg, limits.limit_deg)
     now = Bank(present.bank_deg, memory.sensing.bank_rate_deg_s)
-    bank_deg = demand_deg(vehicle.estimates.roll, now, target_deg, limits.limit_deg)
+    roll = vehicle.estimates.roll
+    bank_deg = demand_deg(roll, now, target_deg, limits.limit_deg)
+    bank_deg = slewed_command(memory.sensing.command_deg, bank_deg, roll.slew_deg_s * dt)
     bank_deg = clip(bank_deg, settings.command_limit_deg)
     route = plan.route
     command = LawCommand(

@@ -105,7 +105,7 @@ NO_LIMITS = Limits(
     wind_differs=False,
     wind_east_m_s=0.0,
     wind_north_m_s=0.0,
-    roll=RollValues(0.0, 0.0, 0.0),
+    roll=RollValues(0.0, 0.0, 0.0, 0.0),
     limit_deg=0.0,
     turns=TurnLimits(1.0, 1.0, 1.0),
     hold_deg=0.0,
@@ -215,6 +215,7 @@ def is_changed(roll: RollValues, before: RollValues) -> bool:
         abs(roll.time_s - time_s) > ROLL_CHANGED * time_s
         or abs(roll.rate_deg_s - before.rate_deg_s) > ROLL_CHANGED * before.rate_deg_s
         or abs(roll.lag_s - lag_s) > ROLL_CHANGED * time_s
+        or roll.slew_deg_s != before.slew_deg_s
     )
 
 

@@ -12,7 +12,7 @@ from loiter.guidance.estimation.observer import COVERED_S
 from loiter.guidance.estimation.turn_fits import EXPECTED_TURN_RATIO
 from loiter.guidance.estimation.wind_fit import DECLARED_WIND_S
 from loiter.guidance.protocol import PHASES, Command, Phase, State
-from loiter.guidance.vehicle import INSTANT_ROLL, Roll, RollValues, VehicleEstimates, VehicleModel, fly_as_declared
+from loiter.guidance.vehicle import INSTANT_ROLL, Roll, VehicleEstimates, VehicleModel, fly_as_declared
 from loiter.planning.model import CALM, Aircraft, Orbit, Turn, Wind, check_held, relative_wind, sign_of
 
 # The names of the codes of a step.
@@ -85,7 +85,7 @@ class LoiterEntry:
         )
         turn_ratio = EXPECTED_TURN_RATIO if identify else 1.0
         declared = VehicleEstimates(
-            roll=RollValues(roll.time_s, roll.rate_deg_s, 0.0),
+            roll=roll.values,
             delay_s=delay_s,
             turn_ratio=turn_ratio,
             quick_turn_ratio=turn_ratio,

@@ -44,10 +44,11 @@ from loiter.guidance.estimation.observer import Clock, Estimate, Sensing, along_
 from loiter.guidance.vehicle import (
     SMALL_CHANGE_DEG,
     Bank,
+    Rolling,
     RollValues,
     bank_at_rate,
     clip,
-    coasting_s,
+    coasted_deg,
     rate_at_bank,
     small_onset,
     turn_delay,
@@ -112,13 +113,15 @@ NO_PLAN = Plan(NO_ROUTE, 0.0, inf, inf, -inf)
 class Leads(NamedTuple):
     """Delays of changes from a bank, at a rate, to those of the current, the next and the last piece.
 
-    Banks are in half degrees. The present command takes effect after `current_s`; until then the turn rate is larger
-    than the present one by `more` g/V, and the aircraft is displaced to the right by `displaced_s2` g. The next bank
-    must be commanded `next_s` before the current piece ends, that of the last one `last_s`.
+    Banks are in half degrees, also the one that is commanded, which is 0 where it has no slew rate. The present command
+    takes effect after `current_s`; until then the turn rate is larger than the present one by `more` g/V, and the
+    aircraft is displaced to the right by `displaced_s2` g. The next bank must be commanded `next_s` before the current
+    piece ends, that of the last one `last_s`.
     """
 
     bank: int
     rate: int
+    command: int
     current: int
     next: int
     last: int
@@ -129,7 +132,7 @@ class Leads(NamedTuple):
     displaced_s2: float
 
 
-NO_LEADS = Leads(NO_BANK, 0, 0, 0, 0, 0.0, 0.0, 0.0, 0.0, 0.0)
+NO_LEADS = Leads(NO_BANK, 0, 0, 0, 0, 0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 class ResponsePoint(NamedTuple):
@@ -253,7 +256,8 @@ def advance_plan(planning: Planning, settings: Settings, limits: Limits, sensing
     route, left_s, join_s, planned_join_s, searched_s = planning.plan
     # Pieces are dropped that are complete, in a plan of its own at most three.
     while True:
-        leads = leads_to(limits, leads, Bank(estimate.bank_deg, sensing.bank_rate_deg_s), route)
+        now = Bank(estimate.bank_deg, sensing.bank_rate_deg_s)
+        leads = leads_to(limits, leads, Rolling(now, sensing.command_deg), route)
         later = estimate_after(turning_more(estimate, leads.more), leads.current_s)
         state = displaced(relative_state(settings, later), estimate.turning.ratio * leads.displaced_s2)
         left_s, early_s = remaining_s(route, state, left_s), early_end_s(route, leads)
@@ -278,14 +282,17 @@ def advance_plan(planning: Planning, settings: Settings, limits: Limits, sensing
     )
 
 
-def leads_to(limits: Limits, leads: Leads, now: Bank, route: Route) -> Leads:
+def leads_to(limits: Limits, leads: Leads, rolling: Rolling, route: Route) -> Leads:
     """How changes from a bank to those of the pieces of a route are delayed; what is known is not computed again."""
-    bank, rate, u3 = half_degrees(now.bank_deg), half_degrees(now.rate_deg_s / RATE_STEPS), last_control(route)
+    now, u3 = rolling.now, last_control(route)
+    bank, rate = half_degrees(now.bank_deg), half_degrees(now.rate_deg_s / RATE_STEPS)
+    command = half_degrees(rolling.command_deg) if limits.roll.slew_deg_s < inf else 0
     first, second = half_deg_on(limits, route, route.current), half_deg_on(limits, route, route.second)
     last = route.side * limits.hold_half_deg if u3 == ABSENT else -u3 * limits.planned_half_deg
     if (
         leads.bank == bank
         and leads.rate == rate
+        and leads.command == command
         and leads.current == first
         and leads.next == second
         and leads.last == last
@@ -293,35 +300,35 @@ def leads_to(limits: Limits, leads: Leads, now: Bank, route: Route) -> Leads:
         return leads
     roll, limit_deg = limits.roll, limits.limit_deg
     now = Bank(0.5 * bank, 0.5 * RATE_STEPS * rate)
+    rolling = Rolling(now, 0.5 * command)
     there = tan(radians(now.bank_deg))
     first_s = small_onset(roll).lead_s
-    first_delay = turn_delay(roll, now, 0.5 * first, limit_deg)
+    first_delay = turn_delay(roll, rolling, 0.5 * first, limit_deg)
     first_missing_s = first_delay.missing_s
     tangent = tan(radians(0.5 * first))
-    # Where the bank goes without a command.
-    coasted_deg = clip(now.bank_deg + coasting_s(roll) * now.rate_deg_s, limit_deg)
+    unchanged_deg = clip(coasted_deg(roll, rolling), limit_deg)
     current_s = first_s
-    if abs(0.5 * first - coasted_deg) > SMALL_CHANGE_DEG:
-        current_s = max(first_missing_s / (tangent - tan(radians(coasted_deg))), 0.5 * first_s)
-    elif rate == 0 and first != bank:
+    if abs(0.5 * first - unchanged_deg) > SMALL_CHANGE_DEG:
+        current_s = max(first_missing_s / (tangent - tan(radians(unchanged_deg))), 0.5 * first_s)
+    elif rate == 0 and first != bank and (command == 0 or command == bank):
         current_s = first_missing_s / (tangent - there)
     more = tangent - first_missing_s / current_s - there if current_s > 0.0 and first != bank else 0.0
-    next_s = change_delay_s(roll, now, limit_deg, first, first_missing_s, second) - current_s
-    last_s = change_delay_s(roll, now, limit_deg, first, first_missing_s, last) - current_s
+    next_s = change_delay_s(roll, rolling, limit_deg, first, first_missing_s, second) - current_s
+    last_s = change_delay_s(roll, rolling, limit_deg, first, first_missing_s, last) - current_s
     displaced_s2 = first_delay.moment_s2 - 0.5 * first_missing_s * current_s
-    return Leads(bank, rate, first, second, last, current_s, more, next_s, last_s, displaced_s2)
+    return Leads(bank, rate, command, first, second, last, current_s, more, next_s, last_s, displaced_s2)
 
 
 def change_delay_s(
-    roll: RollValues, now: Bank, limit_deg: float, first: int, first_missing_s: float, second: int
+    roll: RollValues, rolling: Rolling, limit_deg: float, first: int, first_missing_s: float, second: int
 ) -> float:
-    """After how long a change from the bank of one piece to that of another takes effect, seconds, from a bank `now`.
+    """After how long a change from the bank of one piece to that of another takes effect, seconds.
 
     Banks are in half degrees; `first_missing_s` is what the turn to the first one misses (`TurnDelay`).
     """
     if first == second:
         return 0.0
-    missing_s = turn_delay(roll, now, 0.5 * second, limit_deg).missing_s
+    missing_s = turn_delay(roll, rolling, 0.5 * second, limit_deg).missing_s
     return (first_missing_s - missing_s) / (tan(radians(0.5 * first)) - tan(radians(0.5 * second)))
 
 

@@ -99,7 +99,7 @@ class Identification(NamedTuple):
 
 
 NO_AVERAGE = Average(0.0, 0.0)
-NO_VEHICLE = VehicleEstimates(RollValues(0.0, 0.0, 0.0), *(12 * (0.0,)))
+NO_VEHICLE = VehicleEstimates(RollValues(0.0, 0.0, 0.0, 0.0), *(12 * (0.0,)))
 NO_IDENTIFICATION = Identification(
     stamps=Stamps(FIRST_CLOCK, 0.0, -inf),
     roll=NO_ROLL,

@@ -522,13 +522,15 @@ def _rotated(pose: PlanarPose, angle: float) -> PlanarPose:
 class Sensing(NamedTuple):
     """What is known of the present: the clock, the observer and the modelled bank.
 
-    `present` is the last estimate of the present state, `elapsed_s` the time since then, and `model_error_deg` how far
-    its bank was from the modelled one. `is_known` says whether the estimate is of this step.
+    `command_deg` is the last command, or the bank before the first one. `present` is the last estimate of the present
+    state, `elapsed_s` the time since then, and `model_error_deg` how far its bank was from the modelled one. `is_known`
+    says whether the estimate is of this step.
     """
 
     clock: Clock
     observer: Observer
     history: BankHistory
+    command_deg: float
     present: Estimate
     bank_rate_deg_s: float
     elapsed_s: float
@@ -542,6 +544,7 @@ def first_sensing(smoothing_s: float, bank_deg: float) -> Sensing:
         clock=FIRST_CLOCK,
         observer=first_observer(smoothing_s),
         history=constant_history(bank_deg),
+        command_deg=bank_deg,
         present=NO_ESTIMATE,
         bank_rate_deg_s=0.0,
         elapsed_s=0.0,
@@ -559,22 +562,22 @@ def sense(
     slower than the steps: until the next measurement, but no longer than `EXTRAPOLATED_S`, the last estimate is
     extrapolated with the modelled bank.
     """
-    clock, observer, history, present, _, elapsed_s, error_deg, _ = sensing
+    clock, observer, history, command_deg, present, _, elapsed_s, error_deg, _ = sensing
     rate_deg_s = vehicle.bank_rate_deg_s
     if step_s > 0.0:
         clock, elapsed_s = advance_clock(clock, step_s), elapsed_s + step_s
         history = record_bank(history, vehicle.bank_deg, step_s, covered_s)
     if not is_usable(measurement):
-        return Sensing(clock, observer, history, present, rate_deg_s, elapsed_s, error_deg, False)
+        return Sensing(clock, observer, history, command_deg, present, rate_deg_s, elapsed_s, error_deg, False)
     if measurement.time_s == clock.time_s:
         if present.airspeed_m_s == 0.0 or clock.since_s > EXTRAPOLATED_S:
-            return Sensing(clock, observer, history, present, rate_deg_s, elapsed_s, error_deg, False)
+            return Sensing(clock, observer, history, command_deg, present, rate_deg_s, elapsed_s, error_deg, False)
         present = estimate_after(estimate_with_bank(present, present_deg(history) + error_deg), elapsed_s)
-        return Sensing(clock, observer, history, present, rate_deg_s, 0.0, error_deg, True)
+        return Sensing(clock, observer, history, command_deg, present, rate_deg_s, 0.0, error_deg, True)
     is_first = clock.time_s == -inf
     clock, is_new = check_stamp(clock, measurement.time_s)
     if not is_new:
-        return Sensing(clock, observer, history, present, rate_deg_s, elapsed_s, error_deg, False)
+        return Sensing(clock, observer, history, command_deg, present, rate_deg_s, elapsed_s, error_deg, False)
     if is_first:
         history = constant_history(vehicle.bank_deg)
     if clock.jump_s != 0.0 or clock.gap_s > EXTRAPOLATED_S:
@@ -583,9 +586,16 @@ def sense(
     turning, bank_deg = Turning(known.turn_ratio, known.course_lead_s), delayed_deg(history, known.delay_s)
     observer = observe(observer, remove_bias(known, measurement), bank_deg, smoothing_s, turning)
     present = estimate_at_present(observer.estimate, history, known.delay_s)
-    return Sensing(clock, observer, history, present, rate_deg_s, 0.0, present.bank_deg - present_deg(history), True)
+    return Sensing(
+        clock, observer, history, command_deg, present, rate_deg_s, 0.0, present.bank_deg - present_deg(history), True
+    )
 
 
 def measure_gusts_anew(sensing: Sensing) -> Sensing:
     """What is known, without the gusts: the turns before the circle look like gusts."""
     return sensing._replace(observer=restart_gusts(sensing.observer))
+
+
+def following(sensing: Sensing, command_deg: float) -> Sensing:
+    """What is known, with the command that the vehicle follows at present."""
+    return sensing._replace(command_deg=command_deg)

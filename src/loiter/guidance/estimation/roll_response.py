@@ -113,7 +113,7 @@ def step_of(time_s: float, lag_s: float) -> ModelStep:
     """The step of a model without its limit."""
     if lag_s == 0.0:
         return ModelStep(1.0 - exp(-STEP_S / time_s), 0.0, 0.0, 0.0, 0.0)
-    roll, one, other, dt = RollValues(time_s, inf, lag_s), Bank(1.0, 0.0), Bank(0.0, 1.0), STEP_S / SUBSTEPS
+    roll, one, other, dt = RollValues(time_s, inf, lag_s, inf), Bank(1.0, 0.0), Bank(0.0, 1.0), STEP_S / SUBSTEPS
     for _ in range(SUBSTEPS):
         one, other = roll_after(roll, one, 0.0, dt), roll_after(roll, other, 0.0, dt)
     return ModelStep(1.0 - one.bank_deg, other.bank_deg, -one.rate_deg_s, other.rate_deg_s, lag_s)
@@ -123,12 +123,13 @@ class RollSettings(NamedTuple):
     """The models: the step that each makes, and the limit of the change of bank in it, degrees.
 
     Time constants and rate limits are unknown by their logarithms. `kind_logs`, `rate_logs` and `delay_logs` are the
-    logarithms of the probabilities as declared.
+    logarithms of the probabilities as declared. The slew rate of commands, which obey it, is as declared.
     """
 
     time: Unknown
     rate: Unknown
     delay: Unknown
+    slew_deg_s: float
     kinds: Annotated[tuple[ModelStep, ...], KINDS]
     kind_logs: Annotated[tuple[float, ...], KINDS]
     limits_deg: Annotated[tuple[float, ...], RATES]
@@ -271,6 +272,7 @@ def roll_settings(declared: RollValues, delay_s: float) -> RollSettings:
         time=time,
         rate=rate,
         delay=delay,
+        slew_deg_s=declared.slew_deg_s,
         kinds=kinds,
         kind_logs=kind_logs,
         limits_deg=limits_deg,
@@ -361,7 +363,7 @@ NO_ROLL = RollMemory(
         total=1.0,
         log_total=0.0,
         variance_deg2=0.0,
-        estimate=RollEstimate(RollValues(0.0, 0.0, 0.0), 0.0),
+        estimate=RollEstimate(RollValues(0.0, 0.0, 0.0, 0.0), 0.0),
     ),
 )
 
@@ -505,7 +507,7 @@ def estimate_anew(weights: Weights, settings: RollSettings, sums: Comparison) ->
     time_s = exp(estimate_of(settings.time, sums.time)) * (1.0 + share * sums.second * (SECOND_TIME - 1.0))
     lag_s = share * sums.lag_s
     lag_s = lag_s if lag_s > NEGLIGIBLE_LAG_S else 0.0
-    roll = RollValues(time_s, exp(cautious_estimate(settings.rate, sums.rate)), lag_s)
+    roll = RollValues(time_s, exp(cautious_estimate(settings.rate, sums.rate)), lag_s, settings.slew_deg_s)
     mean = sums.errors / (MODELS * DELAYS)
     return weights._replace(
         total=total,

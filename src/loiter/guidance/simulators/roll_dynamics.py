@@ -12,7 +12,7 @@ from math import cos, exp, hypot, log, pi, sin, sqrt
 from typing import Protocol
 
 from loiter.errors import not_negative, positive, share
-from loiter.guidance.vehicle import Roll, clip
+from loiter.guidance.vehicle import Roll, clip, mean_command, slewed_command
 
 # The share of a step response by which its time constant is defined: 1 - 1/e.
 RISE = 1.0 - exp(-1.0)
@@ -31,16 +31,24 @@ class RollDynamics(Protocol):
 
 
 class FirstOrderRoll:
-    """The first-order response with a limited rate, solved exactly."""
+    """The first-order response with a limited rate, solved exactly, to commands that are limited in rate too."""
 
     def __init__(self, roll: Roll, bank_deg: float = 0.0) -> None:
-        self._roll, self.bank_deg = roll, bank_deg
+        self._roll, self.bank_deg, self._command_deg = roll, bank_deg, bank_deg
 
     def advance(self, command_deg: float, dt: float) -> float:
         """Fly `dt` seconds under a constant command; return the bank at half time."""
-        halfway_deg = self._roll.bank_after(self.bank_deg, command_deg, 0.5 * dt)
-        self.bank_deg = self._roll.bank_after(halfway_deg, command_deg, 0.5 * dt)
+        halfway_deg = self._fly(command_deg, 0.5 * dt)
+        self._fly(command_deg, 0.5 * dt)
         return halfway_deg
+
+    def _fly(self, command_deg: float, dt: float) -> float:
+        """Fly `dt` seconds; the command that is followed counts with its mean."""
+        change_deg = self._roll.slew_deg_s * dt
+        followed_deg = mean_command(self._command_deg, command_deg, change_deg) if dt > 0.0 else command_deg
+        self._command_deg = slewed_command(self._command_deg, command_deg, change_deg)
+        self.bank_deg = self._roll.bank_after(self.bank_deg, followed_deg, dt)
+        return self.bank_deg
 
 
 @dataclass(frozen=True)

@@ -1,13 +1,13 @@
 """What an autopilot's parameters say about its aircraft: airspeed, bank limit, roll response, and its failsafe.
 
-The roll response is guessed from RLL2SRV_TCONST and RLL2SRV_RMAX of ArduPlane, or FW_R_TC, FW_R_RMAX and
-FW_PN_R_SLEW_MAX of PX4; the law identifies it in flight.
+The roll response is guessed from RLL2SRV_TCONST and RLL2SRV_RMAX of ArduPlane, or FW_R_TC and FW_R_RMAX of PX4; the
+law identifies it in flight. PX4 limits the rate of its bank setpoint to FW_PN_R_SLEW_MAX, which the law must know.
 """
 
 from __future__ import annotations
 
 from enum import Enum
-from math import nan
+from math import inf, nan
 from typing import NamedTuple
 
 from loiter.guidance.vehicle import Roll
@@ -127,12 +127,12 @@ def _plane_settings(known: dict[str, float]) -> AutopilotSettings:
 
 
 def _px4_settings(known: dict[str, float]) -> AutopilotSettings:
-    rates = [known.get(name, 0.0) for name in ("FW_R_RMAX", "FW_PN_R_SLEW_MAX")]
+    slew_deg_s = known.get("FW_PN_R_SLEW_MAX", 0.0)
     action = round(known.get("COM_OBL_RC_ACT", -1.0))
     return AutopilotSettings(
         known.get("FW_AIRSPD_TRIM", nan),
         known.get("FW_R_LIM", nan),
-        _roll(known.get("FW_R_TC", ROLL_TIME_S), min((rate for rate in rates if rate > 0.0), default=0.0)),
+        _roll(known.get("FW_R_TC", ROLL_TIME_S), known.get("FW_R_RMAX", 0.0), slew_deg_s if slew_deg_s > 0.0 else inf),
         loss_action=LOSS_ACTIONS.get(action, "what COM_OBL_RC_ACT says"),
         flies_away=action not in SAFE_LOSS_ACTIONS,
         fence=_fence(known.get("GF_ACTION")),
@@ -144,6 +144,6 @@ def _fence(setting: float | None) -> str:
     return "unknown" if setting is None else "on" if setting else "off"
 
 
-def _roll(time_s: float, rate_deg_s: float) -> Roll:
+def _roll(time_s: float, rate_deg_s: float, slew_deg_s: float = inf) -> Roll:
     """The response with a time constant and a rate limit; a rate of 0 is no limit, and a default stands in for it."""
-    return Roll(TIME_SHARE * max(time_s, 0.0), rate_deg_s if rate_deg_s > 0.0 else ROLL_RATE_DEG_S)
+    return Roll(TIME_SHARE * max(time_s, 0.0), rate_deg_s if rate_deg_s > 0.0 else ROLL_RATE_DEG_S, slew_deg_s)

@@ -37,7 +37,8 @@ LoiterEntry::LoiterEntry()
       _longitude_param(param_find("LOIT_LON")), _radius_param(param_find("LOIT_RADIUS")),
       _direction_param(param_find("LOIT_DIR")), _roll_time_param(param_find("LOIT_ROLL_T")),
       _roll_rate_param(param_find("LOIT_ROLL_RATE")), _delay_param(param_find("LOIT_DELAY")),
-      _airspeed_param(param_find("FW_AIRSPD_TRIM")), _bank_param(param_find("FW_R_LIM"))
+      _airspeed_param(param_find("FW_AIRSPD_TRIM")), _bank_param(param_find("FW_R_LIM")),
+      _slew_param(param_find("FW_PN_R_SLEW_MAX"))
 {
     _wind.windspeed_north = _wind.windspeed_east = NAN;
     _airspeed.true_airspeed_m_s = _airspeed.calibrated_airspeed_m_s = NAN;
@@ -166,6 +167,13 @@ loiter_law_config LoiterEntry::law_config() const
     loiter_law_config config = loiter_law_defaults(thinner * _airspeed_m_s, limit_deg, _circle.radius_m, _circle.side);
     config.roll_time_s = read(_roll_time_param);
     config.roll_rate_deg_s = read(_roll_rate_param);
+    const float slew_deg_s = read(_slew_param);
+
+    /* With 0 PX4 does not limit its bank setpoint. */
+    if (slew_deg_s > 0.0f) {
+        config.roll_slew_deg_s = slew_deg_s;
+    }
+
     config.delay_s = read(_delay_param);
     config.search_steps = SEARCH_STEPS;
 

@@ -100,7 +100,7 @@ private:
 #endif
 
     const param_t _latitude_param, _longitude_param, _radius_param, _direction_param;
-    const param_t _roll_time_param, _roll_rate_param, _delay_param, _airspeed_param, _bank_param;
+    const param_t _roll_time_param, _roll_rate_param, _delay_param, _airspeed_param, _bank_param, _slew_param;
 
     vehicle_status_s _status{};
     vehicle_local_position_s _local{};
