@@ -531,9 +531,9 @@ def test_a_steady_hold_takes_time_and_a_quarter_of_the_circle():
     assert not steady.settled
 
 
-def test_a_quiet_moment_is_waited_for_half_a_circle():
+def test_a_quiet_moment_is_waited_for_a_whole_circle():
     # Three degrees off in the mean until 14 s, or for ever.
-    for until_s, expected_s in ((14.0, 14.0), (math.inf, 8.0 + 180.0 / 12.9)):
+    for until_s, expected_s in ((14.0, 14.0), (math.inf, 8.0 + 360.0 / 12.9)):
         steady = SteadyHoldDetector(CIRCLE)
         for i in range(400):
             course_error_deg = 3.0 if 0.1 * i < until_s else 0.0
@@ -562,6 +562,25 @@ def test_a_bank_that_swings_is_waited_for():
         if steady.settled:
             break
     assert 15.5 <= 0.1 * i <= 18.0
+
+
+def settling_turns(inside_m):
+    """The turns flown until a vehicle has settled whose bank always changes, and which is inside by a function."""
+    steady = SteadyHoldDetector(CIRCLE)
+    for i in range(900):
+        swing_deg = 4.0 * math.sin(2.0 * math.pi * 0.75 * 0.1 * i)
+        state = on_circle(1.29 * i, 80.0 - inside_m(1.29 * i / 360.0), time_s=0.1 * i)
+        steady.update(state._replace(bank_deg=state.bank_deg + swing_deg))
+        if steady.settled:
+            return 1.29 * i / 360.0
+    return math.inf
+
+
+def test_a_bank_that_always_changes_is_waited_for_half_a_circle_and_the_circle_for_a_whole_one():
+    """The wait begins after 8 s, a quarter of the circle. In wind a vehicle was handed over 3 m beside it."""
+    assert settling_turns(lambda turns: 0.0) == pytest.approx(0.79, abs=0.02)
+    assert settling_turns(lambda turns: 2.5) == pytest.approx(1.29, abs=0.02)
+    assert 1.0 < settling_turns(lambda turns: 2.5 if turns < 1.0 else 0.0) < 1.1
 
 
 @pytest.mark.parametrize("turn", [1.0, -1.0])

@@ -16,10 +16,14 @@ BAND, STAY_S, STAY_DEG = Band(), 8.0, 90.0
 # Near the circle for this much of it, degrees, without having settled: gusts are strong, and the band doubles.
 GUSTY_DEG, NEAR = 360.0, 4.0
 
-# Then a quiet moment is waited for, no longer than this much of the circle, degrees: the mean position and course of
-# the last time, seconds, are within these shares of the band and the position within these metres, and for the second
-# time, seconds, the bank has been within this many degrees of its mean.
-LONGEST_WAIT_DEG, MEAN_S, QUIET, QUIET_M, QUIET_S, QUIET_BANK_DEG = 180.0, 1.0, 0.3, 1.8, 2.0, 1.5
+# Then a quiet moment is waited for: the mean position and course of the last time, seconds, are within these shares of
+# the band and the position within these metres, and for the second time, seconds, the bank has been within this many
+# degrees of its mean.
+MEAN_S, QUIET, QUIET_M, QUIET_S, QUIET_BANK_DEG = 1.0, 0.3, 1.8, 2.0, 1.5
+
+# The bank is waited for no longer than this much of the circle, degrees, since in wind it must change all the time, and
+# position and course no longer than the second.
+LONGEST_BANK_WAIT_DEG, LONGEST_WAIT_DEG = 180.0, 360.0
 
 # Turn ratios on the circle are averages over so many seconds. One changes for some seconds after an aircraft has begun
 # to turn, while its sideslip settles, and a swing of the bank disturbs a short average: the long one suits a correction
@@ -98,12 +102,9 @@ class SteadyHoldDetector:
             self._flown_deg += turned_deg
             if state.time_s - self._since_s >= STAY_S and self._flown_deg >= STAY_DEG:
                 self._waited_deg += turned_deg
-                quiet = (
-                    BAND.is_within(*self.mean, self._orbit.radius_m, QUIET)
-                    and abs(self.mean.outside_m) <= QUIET_M
-                    and state.time_s - self._quiet_since_s >= QUIET_S
-                )
-                self.settled = quiet or self._waited_deg >= LONGEST_WAIT_DEG
+                near = BAND.is_within(*self.mean, self._orbit.radius_m, QUIET) and abs(self.mean.outside_m) <= QUIET_M
+                quiet = state.time_s - self._quiet_since_s >= QUIET_S or self._waited_deg >= LONGEST_BANK_WAIT_DEG
+                self.settled = (near and quiet) or self._waited_deg >= LONGEST_WAIT_DEG
         return offset
 
     def _average(self, state: State, position: MeanPosition) -> None:
