@@ -10,8 +10,9 @@ the time of arrival.
 
 from __future__ import annotations
 
-from math import cos, hypot, inf, isfinite, nan, radians, sin, sqrt, tan
+from math import asin, cos, hypot, inf, isfinite, nan, radians, sin, sqrt, tan
 
+from loiter.geo.atmosphere import eas2tas_squared
 from loiter.guidance.vehicle import clip
 from loiter.mavlink.autopilots.acceleration_sign import AccelerationSign
 from loiter.mavlink.connection.dead_reckoning import GroundMotion, motion_after
@@ -74,11 +75,35 @@ class RollSteering:
         self.send(link, 0.0, 0.0, now)
 
 
-class AccelerationSteering:
-    """Setpoints for PX4: position, velocity and lateral acceleration, at an altitude above mean sea level."""
+def turn_into_wind(course_gain: float, across: float, airspeed_m_s: float, eas2tas: float) -> float:
+    """The acceleration to the right, m/s^2, with which PX4 leaves the course that it holds in a crosswind.
 
-    def __init__(self, vehicle: Vehicle, telemetry: Telemetry, altitude_m: float, sign: AccelerationSign) -> None:
+    `course_gain` is its turn rate, radians per second, per radian of error, `across` the crosswind to the right, m/s,
+    and `eas2tas` the true airspeed over the indicated one. PX4 heads into the wind by asin(crosswind over airspeed),
+    but divides by the indicated airspeed (CourseToAirspeedRefMapper): its heading setpoint is too far into the wind.
+    """
+    drift, indicated = across / airspeed_m_s, across * eas2tas / airspeed_m_s
+    if max(abs(drift), abs(indicated)) >= 1.0:
+        return 0.0
+    return -course_gain * airspeed_m_s * sin(asin(indicated) - asin(drift))
+
+
+class AccelerationSteering:
+    """Setpoints for PX4: position, velocity and lateral acceleration, at an altitude above mean sea level.
+
+    `course_gain` is the turn rate, radians per second, that PX4 demands per radian of a course error; 0 if not known.
+    """
+
+    def __init__(
+        self,
+        vehicle: Vehicle,
+        telemetry: Telemetry,
+        altitude_m: float,
+        sign: AccelerationSign,
+        course_gain: float = 0.0,
+    ) -> None:
         self._vehicle, self._telemetry, self._altitude_m, self.sign = vehicle, telemetry, altitude_m, sign
+        self._course_gain = course_gain
         self._down_m = nan
         self._delay_s, self._wind = 0.0, CALM
 
@@ -110,7 +135,7 @@ class AccelerationSteering:
         if self._telemetry.last(LOCAL_POSITION) is None:
             return bank_deg
         self.sign.update(measured_deg, bank_deg, now)
-        acceleration = STANDARD_GRAVITY_M_S2 * tan(radians(bank_deg)) * self._path_share()
+        acceleration = self._path_acceleration(STANDARD_GRAVITY_M_S2 * tan(radians(bank_deg)))
         self._send(link, self.sign.sign * acceleration, self._telemetry.yaw_rate, now)
         return bank_deg
 
@@ -152,18 +177,22 @@ class AccelerationSteering:
             self._down_m = down_m
         return self._down_m
 
-    def _path_share(self) -> float:
-        """The factor of the acceleration along the path: in a crosswind PX4 banks more for a curvature over the ground.
+    def _path_acceleration(self, acceleration: float) -> float:
+        """The acceleration along the path, m/s^2, for which PX4 turns with an acceleration in the air.
 
-        It is the cosine of the drift angle.
+        In a crosswind PX4 banks more for a curvature over the ground, by the cosine of the drift angle, and turns into
+        the wind.
         """
         p = self._telemetry.last(LOCAL_POSITION)
         wind_east, wind_north = self._wind.velocity_m_s
         speed, airspeed = hypot(p.vx, p.vy), hypot(p.vx - wind_north, p.vy - wind_east)
         if speed == 0.0 or airspeed == 0.0:
-            return 1.0
-        across = (wind_east * p.vx - wind_north * p.vy) / speed / airspeed
-        return sqrt(max(1.0 - across * across, 0.0))
+            return acceleration
+        across = (wind_east * p.vx - wind_north * p.vy) / speed
+        drift = across / airspeed
+        share = sqrt(max(1.0 - drift * drift, 0.0))
+        eas2tas = sqrt(eas2tas_squared(self._telemetry.fix().altitude_m))
+        return (acceleration - turn_into_wind(self._course_gain, across, airspeed, eas2tas)) * share
 
 
 # What steers a vehicle: setpoints for a bank.

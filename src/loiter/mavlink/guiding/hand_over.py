@@ -26,15 +26,11 @@ from loiter.geo.atmosphere import eas2tas_squared
 from loiter.guidance.circle import circle_offset
 from loiter.guidance.protocol import State
 from loiter.guidance.vehicle import VehicleEstimates, clip
+from loiter.mavlink.autopilots.own_guidance import Guidance, guidance_of
 from loiter.mavlink.guiding.settling import MeanPosition
 from loiter.mavlink.missions.flown_radius import loiter_scaling
 from loiter.planning.hold import hold
 from loiter.planning.model import Aircraft, Orbit, sign_of, wind_from_velocity
-
-# The parameters of ArduPlane and PX4 for the period of their guidance, seconds, and its damping, with the default of
-# the latter.
-PERIOD, DAMPING, DEFAULT_DAMPING = "NAVL1_PERIOD", "NAVL1_DAMPING", 0.75
-PX4_PERIOD, PX4_DAMPING, PX4_DEFAULT_DAMPING = "NPFG_PERIOD", "NPFG_DAMPING", 0.7
 
 # The largest shares of the radius by which it is corrected and by which the centre is displaced, and how far below 1 a
 # turn ratio is noise, as any above 1 is: upwind, where banks are small, an error of a degree is 15 %.
@@ -55,17 +51,6 @@ KEPT_S = 3.0
 # A course error at the end of that time counts as the offset to which it leads within this time, seconds. The turn rate
 # is corrected by this share at most.
 RECOVERY_S, LARGEST_CORRECTION = 2.0, 0.3
-
-
-class Guidance(NamedTuple):
-    """An autopilot's guidance on a circle: its natural frequency, radians per second, and its damping."""
-
-    omega: float
-    damping: float
-
-    def stiffness(self, rate: complex) -> complex:
-        """The acceleration, m/s^2, that is demanded for each metre outside which changes at a complex rate, 1/s."""
-        return self.omega * (self.omega + 2.0 * self.damping * rate)
 
 
 class SentCircle(NamedTuple):
@@ -96,7 +81,7 @@ def sent_circle(
     whole metres of radius.
     """
     scaling, radius_m = loiter_scaling(parameters), orbit.radius_m
-    guidance = _guidance(parameters)
+    guidance = guidance_of(parameters)
     if guidance is None or estimates is None:
         sent_m = radius_m if scaling is None else scaling.sent_whole_m(radius_m, altitude_m)
         return SentCircle(orbit.east_m, orbit.north_m, sent_m)
@@ -114,15 +99,6 @@ def sent_circle(
     return SentCircle(
         orbit.east_m - displaced_m * sin(outside), orbit.north_m - displaced_m * cos(outside), sent_m, displaced_m
     )
-
-
-def _guidance(parameters: dict[str, float]) -> Guidance | None:
-    """The guidance of ArduPlane or PX4 on a circle, by its parameters; None if they are not known."""
-    names = (PERIOD, DAMPING, DEFAULT_DAMPING), (PX4_PERIOD, PX4_DAMPING, PX4_DEFAULT_DAMPING)
-    for period, damping, default in names:
-        if (period_s := parameters.get(period, 0.0)) > 0.0:
-            return Guidance(2.0 * pi / period_s, parameters.get(damping, default))
-    return None
 
 
 def last_bank_deg(
@@ -189,7 +165,7 @@ def _px4_harmonic(radius_m: float, altitude_m: float, guidance: Guidance, estima
     rate, change = _wind_demand(radius_m, estimates)
     turned = _lateness(rate, estimates)
     wind = hypot(estimates.wind_east_m_s, estimates.wind_north_m_s)
-    drift = 2.0 * guidance.damping * guidance.omega * wind * (sqrt(eas2tas_squared(altitude_m)) - 1.0)
+    drift = guidance.course_gain * wind * (sqrt(eas2tas_squared(altitude_m)) - 1.0)
     return ((1.0 - turned) * change + 1j * turned * drift) / (turned * guidance.stiffness(rate) + rate * rate)
 
 
