@@ -29,7 +29,7 @@ from loiter.mavlink.autopilots.acceleration_sign import CAUTIOUS_DEG, Accelerati
 from loiter.mavlink.autopilots.modes import GUIDED, HOLD, OFFBOARD, ModeWatch, is_unfit, mode_name
 from loiter.mavlink.autopilots.own_guidance import guidance_of
 from loiter.mavlink.autopilots.settings import autopilot_settings, missing
-from loiter.mavlink.autopilots.steering import AccelerationSteering
+from loiter.mavlink.autopilots.steering import UNKNOWN_COURSE_HOLD, AccelerationSteering, CourseHold
 from loiter.mavlink.connection.command import PendingCommand
 from loiter.mavlink.connection.link import Vehicle
 from loiter.mavlink.connection.round_trip import RoundTrip
@@ -119,10 +119,10 @@ def test_straight_flight_shows_no_sign():
 # Setpoints for PX4.
 
 
-def steering(sign=1, course_gain=0.0):
+def steering(sign=1, course=UNKNOWN_COURSE_HOLD):
     """The steering of a vehicle at 590 m, and its telemetry."""
     telemetry = Telemetry()
-    s = AccelerationSteering(VEHICLE, telemetry, 600.0, AccelerationSign(sign, Roll()), course_gain)
+    s = AccelerationSteering(VEHICLE, telemetry, 600.0, AccelerationSign(sign, Roll()), course)
     s.sign.confirmed = True
     telemetry.update(position(1000, altitude_m=590.0), 10.0)
     return s, telemetry
@@ -163,7 +163,7 @@ def test_px4_turns_with_the_bank_although_it_heads_too_far_into_a_crosswind(wind
     """Its guidance on the path of the setpoint, with a heading for the indicated airspeed, demands that bank."""
     link, airspeed = Sent(), 15.5
     gain = guidance_of({"NPFG_PERIOD": 10.0, "NPFG_DAMPING": 0.6}).course_gain
-    s, telemetry = steering(course_gain=gain)
+    s, telemetry = steering(course=CourseHold(gain, 14.6))
     velocity = 15.5 * math.cos(1.0) + wind[1], 15.5 * math.sin(1.0) + wind[0]
     telemetry.update(local_position((0.0, 0.0, -90.0), velocity), 10.0)
     s.prepare(0.0, Wind(math.hypot(*wind), degrees(math.atan2(-wind[0], -wind[1])) % 360.0))
@@ -174,10 +174,17 @@ def test_px4_turns_with_the_bank_although_it_heads_too_far_into_a_crosswind(wind
     along = (wind[1] * m.vx + wind[0] * m.vy) / speed
     across = (wind[0] * m.vx - wind[1] * m.vy) / speed
     forward = airspeed * (1.0 + along / math.sqrt(airspeed**2 - across**2)) * curvature * speed
-    indicated = airspeed / true_airspeed(1.0, 590.0)
-    turned = 4.0 * math.pi * 0.6 / 10.0 * airspeed * math.sin(drift_heading(course, wind, indicated) - 1.0)
+    turned = 4.0 * math.pi * 0.6 / 10.0 * airspeed * math.sin(drift_heading(course, wind, 14.6) - 1.0)
     assert degrees(math.atan((forward + turned) / 9.80665)) == pytest.approx(bank_deg, abs=1e-6)
     assert abs(turned) > 0.04
+
+
+def test_an_airspeed_that_is_not_the_setpoint_of_px4_corrects_nothing():
+    """Another setpoint was commanded, or none is known."""
+    assert CourseHold(0.88, 15.0).turn_into_wind(5.0, 15.5, 1.03) < -0.1
+    assert CourseHold(0.88, 15.0).turn_into_wind(5.0, 19.0, 1.03) == 0.0
+    assert CourseHold(0.88, math.nan).turn_into_wind(5.0, 15.5, 1.03) == 0.0
+    assert CourseHold(0.88, 15.0).turn_into_wind(15.2, 15.5, 1.03) == 0.0
 
 
 def test_a_setpoint_is_extrapolated_along_the_turn_and_keeps_its_altitude():

@@ -11,6 +11,7 @@ the time of arrival.
 from __future__ import annotations
 
 from math import asin, cos, hypot, inf, isfinite, nan, radians, sin, sqrt, tan
+from typing import NamedTuple
 
 from loiter.geo.atmosphere import eas2tas_squared
 from loiter.guidance.vehicle import clip
@@ -28,6 +29,9 @@ NO_YAW, LOCAL_NED = 0xC00, 1
 
 # The altitude setpoint follows a shift of PX4's local origin that is larger than this, metres.
 ORIGIN_SHIFT_M = 2.0
+
+# PX4's airspeed setpoint is that of its parameter where it flies at about that, by this share.
+SETPOINT_SHARE = 0.1
 
 # The message with the local position, and the seconds for which that can be extrapolated.
 LOCAL_POSITION, LOCAL_POSITION_S = "LOCAL_POSITION_NED", 1.0
@@ -75,24 +79,35 @@ class RollSteering:
         self.send(link, 0.0, 0.0, now)
 
 
-def turn_into_wind(course_gain: float, across: float, airspeed_m_s: float, eas2tas: float) -> float:
-    """The acceleration to the right, m/s^2, with which PX4 leaves the course that it holds in a crosswind.
+class CourseHold(NamedTuple):
+    """How PX4 holds a course: its turn rate, radians per second, per radian of a course error, and its airspeed.
 
-    `course_gain` is its turn rate, radians per second, per radian of error, `across` the crosswind to the right, m/s,
-    and `eas2tas` the true airspeed over the indicated one. PX4 heads into the wind by asin(crosswind over airspeed),
-    but divides by the indicated airspeed (CourseToAirspeedRefMapper): its heading setpoint is too far into the wind.
+    The airspeed is the setpoint, indicated, metres per second. A gain of 0 stands for one that is not known.
     """
-    drift, indicated = across / airspeed_m_s, across * eas2tas / airspeed_m_s
-    if max(abs(drift), abs(indicated)) >= 1.0:
-        return 0.0
-    return -course_gain * airspeed_m_s * sin(asin(indicated) - asin(drift))
+
+    gain: float = 0.0
+    indicated_m_s: float = nan
+
+    def turn_into_wind(self, across: float, airspeed_m_s: float, eas2tas: float) -> float:
+        """The acceleration to the right, m/s^2, with which PX4 leaves its course in a crosswind to the right, m/s.
+
+        PX4 heads into the wind by asin(crosswind over airspeed), but divides by the indicated setpoint where the true
+        airspeed is needed (CourseToAirspeedRefMapper): its heading is too far into the wind. 0 for an aircraft that
+        does not fly at about the setpoint, whose setpoint is another one.
+        """
+        if not abs(airspeed_m_s - self.indicated_m_s * eas2tas) <= SETPOINT_SHARE * airspeed_m_s:
+            return 0.0
+        if abs(across) >= min(airspeed_m_s, self.indicated_m_s):
+            return 0.0
+        too_far = asin(across / self.indicated_m_s) - asin(across / airspeed_m_s)
+        return -self.gain * airspeed_m_s * sin(too_far)
+
+
+UNKNOWN_COURSE_HOLD = CourseHold()
 
 
 class AccelerationSteering:
-    """Setpoints for PX4: position, velocity and lateral acceleration, at an altitude above mean sea level.
-
-    `course_gain` is the turn rate, radians per second, that PX4 demands per radian of a course error; 0 if not known.
-    """
+    """Setpoints for PX4: position, velocity and lateral acceleration, at an altitude above mean sea level."""
 
     def __init__(
         self,
@@ -100,10 +115,10 @@ class AccelerationSteering:
         telemetry: Telemetry,
         altitude_m: float,
         sign: AccelerationSign,
-        course_gain: float = 0.0,
+        course: CourseHold = UNKNOWN_COURSE_HOLD,
     ) -> None:
         self._vehicle, self._telemetry, self._altitude_m, self.sign = vehicle, telemetry, altitude_m, sign
-        self._course_gain = course_gain
+        self._course = course
         self._down_m = nan
         self._delay_s, self._wind = 0.0, CALM
 
@@ -192,7 +207,7 @@ class AccelerationSteering:
         drift = across / airspeed
         share = sqrt(max(1.0 - drift * drift, 0.0))
         eas2tas = sqrt(eas2tas_squared(self._telemetry.fix().altitude_m))
-        return (acceleration - turn_into_wind(self._course_gain, across, airspeed, eas2tas)) * share
+        return (acceleration - self._course.turn_into_wind(across, airspeed, eas2tas)) * share
 
 
 # What steers a vehicle: setpoints for a bank.

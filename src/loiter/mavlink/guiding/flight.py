@@ -18,7 +18,7 @@ from loiter.guidance.vehicle import VehicleEstimates, clip
 from loiter.mavlink.autopilots.acceleration_sign import AccelerationSign, is_release, sign_of_version
 from loiter.mavlink.autopilots.modes import GUIDED, HOLD, OFFBOARD
 from loiter.mavlink.autopilots.own_guidance import guidance_of
-from loiter.mavlink.autopilots.steering import AccelerationSteering, RollSteering, Steering
+from loiter.mavlink.autopilots.steering import AccelerationSteering, CourseHold, RollSteering, Steering
 from loiter.mavlink.connection.command import PendingCommand, hold_command, mode_command
 from loiter.mavlink.connection.link import ACTIVE
 from loiter.mavlink.guiding.contact import STEP_S, Contact
@@ -207,8 +207,8 @@ class GuidedFlight:
         version = self._contact.version
         sign = AccelerationSign(sign_of_version(version), p.settings.roll, known=is_release(version))
         guidance = guidance_of(self._contact.parameters.known)
-        gain = guidance.course_gain if guidance else 0.0
-        return AccelerationSteering(vehicle, self._contact.telemetry, p.altitude_m, sign, gain)
+        course = CourseHold(guidance.course_gain if guidance else 0.0, p.settings.airspeed_m_s)
+        return AccelerationSteering(vehicle, self._contact.telemetry, p.altitude_m, sign, course)
 
     def _show(self) -> Generator[GuideReport, None, None]:
         """Show what would be commanded, until the generator is closed; nothing is commanded."""
