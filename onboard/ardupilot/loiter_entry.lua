@@ -2,7 +2,7 @@
 --
 -- Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
 --
--- SHA-256 of the source: d6232fd15407945d01c33174a852c10b33afe8c9da1ea4424f5c645c516b1eae
+-- SHA-256 of the source: 493a2b8c69b8ae4e97d825d1e9ca40c77a3889fd9a529e82d2ee55013ae6d1ef
 --
 -- When a switch asks for it, this script flies a plane onto the holding circle around its present target in least
 -- time, and then leaves the circle to ArduPlane: loiter_entry.md. It works by GUIDED_CHANGE_HEADING in GUIDED: the target

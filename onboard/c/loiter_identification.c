@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 10b161590b610f8d726ec144dd6e4c6a975dd2ccfaa35b69574baea6f3603165
+ * SHA-256 of the source: 1711333ba8b746878caecd44cda4925d48e94893896d5b85032cb37a0857b6a8
  */
 #include "loiter_identification.h"
 
@@ -512,7 +512,7 @@ static const TurnSums NO_TURNS = {REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), RE
 static const RatioFit NO_PAIRS = {REAL(0.0), REAL(0.0)};
 static const HighPass NO_VALUE = {REAL(0.0), REAL_NAN};
 static const AirErrors NO_ERRORS = {REAL(0.0), REAL(0.0)};
-static const WindChange NO_CHANGE = {REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0025000000000000005)};
+static const WindChange NO_CHANGE = {REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0025000000000000005)};
 
 /* After a longer step, seconds, the banks are those of a step of this length: it has the same effect on every
  * model.
@@ -589,7 +589,8 @@ static const WindChange NO_CHANGE = {REAL(0.0), REAL(0.0), REAL(0.0), REAL(0.0),
 /* The wind has changed where the velocity of the air, averaged over the first time, seconds, differs from the
  * estimated wind for the second time by more than the first share of the airspeed, and by more than the last
  * multiple of what is usual. That is the root mean square difference over the third time, which begins with the
- * second share.
+ * second share. The average at the end of the second time is the change: at first the aircraft flies beside its
+ * nose, until it has turned into the new wind.
  */
 #define SWIFT_S REAL(0.3)
 #define CHANGED_SHARE REAL(0.2)
@@ -1085,6 +1086,11 @@ static inline void start_models(RollMemory *memory, real bank_deg) {
     return;
 }
 
+/* Whether the last measurements differ from the wind as if it had changed. */
+static inline bool is_changing(const WindFit *wind) {
+    return wind->change.since_s > REAL(0.0);
+}
+
 /* The fits, which do not relate later measurements to earlier ones. */
 static inline Turns restart_turns(const Turns *turns) {
     const SlowTurns slow = turns->slow;
@@ -1092,11 +1098,6 @@ static inline Turns restart_turns(const Turns *turns) {
     const CourseLead lead = turns->lead;
     return MAKE(Turns){first_slow_turns(slow.ratio, slow.bank_bias_deg, slow.sums), first_quick_turns(quick.ratio,
             quick.fit), first_lead(lead.lead_s, lead.fit)};
-}
-
-/* Whether the last measurements differ from the wind as if it had changed. */
-static inline bool is_changing(const WindFit *wind) {
-    return wind->change.since_s > REAL(0.0);
 }
 
 /* Turn rate of a coordinated turn, radians per second, with the sign of the bank: g tan(bank)/V. */
@@ -1254,30 +1255,22 @@ static inline real length(real x, real y) {
 }
 
 /* The change with a difference, `dt` seconds after the last, and whether the wind has changed. */
-static inline WindChange_bool add_difference(const WindChange *change, real east_m_s, real north_m_s, real
-        airspeed_m_s, real dt) {
-    real since_s = change->since_s, mean_east = change->mean_east_m_s, mean_north = change->mean_north_m_s,
-            swift_east = change->swift_east_m_s, swift_north = change->swift_north_m_s, usual_square =
-            change->usual_square;
-    real share = REAL(1.0) - real_exp(-dt / SWIFT_S);
+static inline WindChange_bool add_difference(WindChange change, real east_m_s, real north_m_s, real airspeed_m_s,
+        real dt) {
+    real since_s = change.since_s, swift_east = change.swift_east_m_s, swift_north = change.swift_north_m_s,
+            usual_square = change.usual_square;
+    const real share = REAL(1.0) - real_exp(-dt / SWIFT_S);
     swift_east = swift_east + share * (east_m_s - swift_east);
     swift_north = swift_north + share * (north_m_s - swift_north);
     const real off = length(swift_east, swift_north) / airspeed_m_s;
     if (off <= max_real(CHANGED_SHARE, USUAL_MULTIPLE * real_sqrt(usual_square))) {
         usual_square += (REAL(1.0) - real_exp(-dt / USUAL_S)) * (off * off - usual_square);
-        return MAKE(WindChange_bool){MAKE(WindChange){REAL(0.0), mean_east, mean_north, swift_east, swift_north,
-                usual_square}, false};
+        return MAKE(WindChange_bool){MAKE(WindChange){REAL(0.0), swift_east, swift_north, usual_square}, false};
     }
     since_s += dt;
-    share = min_real(dt / since_s, REAL(1.0));
-    mean_east = mean_east + share * (east_m_s - mean_east);
-    mean_north = mean_north + share * (north_m_s - mean_north);
-    if (since_s < CHANGED_S) {
-        return MAKE(WindChange_bool){MAKE(WindChange){since_s, mean_east, mean_north, swift_east, swift_north,
-                usual_square}, false};
-    }
-    return MAKE(WindChange_bool){MAKE(WindChange){REAL(0.0), mean_east, mean_north, REAL(0.0), REAL(0.0),
-            usual_square}, true};
+    const bool has_changed = since_s >= CHANGED_S;
+    return MAKE(WindChange_bool){MAKE(WindChange){has_changed ? REAL(0.0) : since_s, swift_east, swift_north,
+            usual_square}, has_changed};
 }
 
 /* The means as if the wind had always been as it is after a change by this velocity. */
@@ -1334,14 +1327,15 @@ static inline WindFit add_air_velocity(const WindFit *wind, const State *state, 
     if (known_s > REAL(0.0)) {
         const real_2 without_errors_2 = without_errors(errors, east, north, right_east, right_north);
         const real true_east = without_errors_2.a0, true_north = without_errors_2.a1;
-        const WindChange_bool add_difference_3 = add_difference(&change, true_east - wind_east, true_north -
+        const WindChange_bool add_difference_3 = add_difference(change, true_east - wind_east, true_north -
                 wind_north, V, dt);
         change = add_difference_3.a0;
         const bool has_changed = add_difference_3.a1;
         if (has_changed) {
-            means = shift_means(&means, change.mean_east_m_s, change.mean_north_m_s);
-            known_s = CHANGED_S;
+            means = shift_means(&means, change.swift_east_m_s, change.swift_north_m_s);
+            known_s = SWIFT_S;
             expected = errors;
+            change = MAKE(WindChange){REAL(0.0), REAL(0.0), REAL(0.0), change.usual_square};
         }
         if (change.since_s > REAL(0.0)) {
             return MAKE(WindFit){wind_east, wind_north, errors, expected, known_s, means, change};
@@ -1409,11 +1403,11 @@ static inline void update_fits(Identification *memory, const IdentificationSetti
     const VehicleEstimates known = memory->estimates;
     const VehicleEstimates declared = settings->declared;
     real dt = since_s;
-    if (!(REAL(0.0) < since_s && since_s <= RELATED_S)) {
-        dt = REAL(0.0);
+    const bool is_related = REAL(0.0) < since_s && since_s <= RELATED_S;
+    if (!is_related || is_changing(&wind)) {
+        /* While the wind changes the nose turns into it, which no bank does. */
+        dt = is_related ? since_s : REAL(0.0);
         turns = restart_turns(&turns);
-    } else if (is_changing(&wind)) {
-        turns.lead = first_lead(turns.lead.lead_s, turns.lead.fit);
     }
     const State state = remove_bias(&known, measurement);
     turns = add_turn(&turns, &declared, measurement, &state, &wind, dt);

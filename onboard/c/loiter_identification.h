@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 10b161590b610f8d726ec144dd6e4c6a975dd2ccfaa35b69574baea6f3603165
+ * SHA-256 of the source: 1711333ba8b746878caecd44cda4925d48e94893896d5b85032cb37a0857b6a8
  */
 #ifndef LOITER_IDENTIFICATION_H
 #define LOITER_IDENTIFICATION_H
@@ -56,8 +56,7 @@ typedef struct { loiter_SlowTurns slow; loiter_QuickTurns quick; loiter_CourseLe
 typedef struct { loiter_real heading, airspeed; } loiter_AirErrors;
 typedef struct { loiter_real east_m_s, north_m_s, right_east_m_s, right_north_m_s, right, along, square; }
         loiter_AirMeans;
-typedef struct { loiter_real since_s, mean_east_m_s, mean_north_m_s, swift_east_m_s, swift_north_m_s, usual_square;
-        } loiter_WindChange;
+typedef struct { loiter_real since_s, swift_east_m_s, swift_north_m_s, usual_square; } loiter_WindChange;
 typedef struct { loiter_real east_m_s, north_m_s; loiter_AirErrors errors, expected; loiter_real known_s;
         loiter_AirMeans means; loiter_WindChange change; } loiter_WindFit;
 typedef struct { loiter_real value, known_s; } loiter_Average;

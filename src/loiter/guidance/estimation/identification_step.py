@@ -174,10 +174,10 @@ def update_fits(
     """The memory with a new measurement, `since_s` seconds after the last one that was used."""
     _, _, turns, wind, airspeeds, overshoot, _, known = memory
     declared, dt = settings.declared, since_s
-    if not 0.0 < since_s <= RELATED_S:
-        dt, turns = 0.0, restart_turns(turns)
-    elif is_changing(wind):
-        turns = turns._replace(lead=first_lead(turns.lead.lead_s, turns.lead.fit))
+    is_related = 0.0 < since_s <= RELATED_S
+    if not is_related or is_changing(wind):
+        # While the wind changes the nose turns into it, which no bank does.
+        dt, turns = since_s if is_related else 0.0, restart_turns(turns)
     state = remove_bias(known, measurement)
     turns = add_turn(turns, declared, measurement, state, wind, dt)
     slow, quick, lead = turns

@@ -15,7 +15,9 @@ WIND_MEMORY_S, DECLARED_WIND_S = 60.0, 30.0
 
 # The wind has changed where the velocity of the air, averaged over the first time, seconds, differs from the estimated
 # wind for the second time by more than the first share of the airspeed, and by more than the last multiple of what is
-# usual. That is the root mean square difference over the third time, which begins with the second share.
+# usual. That is the root mean square difference over the third time, which begins with the second share. The average at
+# the end of the second time is the change: at first the aircraft flies beside its nose, until it has turned into the
+# new wind.
 SWIFT_S, CHANGED_S, USUAL_S, CHANGED_SHARE, USUAL_SHARE, USUAL_MULTIPLE = 0.3, 1.5, 20.0, 0.2, 0.05, 2.5
 
 # The heading bias, radians, and the share of the airspeed that is not measured count, before they show, as if they had
@@ -27,27 +29,24 @@ HEADING_BIAS_SPREAD, AIRSPEED_SPREAD, AIR_ERROR, AIR_ERROR_S = 0.06, 0.04, 0.05,
 class WindChange(NamedTuple):
     """Whether the velocity of the air differs from the estimated wind, longer and more than gusts do.
 
-    `since_s` is for how long that has been so, seconds, `mean_east_m_s` and `mean_north_m_s` the mean difference since
-    then. `swift_east_m_s` and `swift_north_m_s` are the difference averaged over `SWIFT_S`, and `usual_square` is the
-    mean square that is usual, in airspeeds.
+    `since_s` is for how long that has been so, seconds. `swift_east_m_s` and `swift_north_m_s` are the difference
+    averaged over `SWIFT_S`, and `usual_square` is the mean square that is usual, in airspeeds.
     """
 
     since_s: float
-    mean_east_m_s: float
-    mean_north_m_s: float
     swift_east_m_s: float
     swift_north_m_s: float
     usual_square: float
 
 
-NO_CHANGE = WindChange(0.0, 0.0, 0.0, 0.0, 0.0, USUAL_SHARE * USUAL_SHARE)
+NO_CHANGE = WindChange(0.0, 0.0, 0.0, USUAL_SHARE * USUAL_SHARE)
 
 
 def add_difference(
     change: WindChange, east_m_s: float, north_m_s: float, airspeed_m_s: float, dt: float
 ) -> tuple[WindChange, bool]:
     """The change with a difference, `dt` seconds after the last, and whether the wind has changed."""
-    since_s, mean_east, mean_north, swift_east, swift_north, usual_square = change
+    since_s, swift_east, swift_north, usual_square = change
     share = 1.0 - exp(-dt / SWIFT_S)
     swift_east, swift_north = (
         swift_east + share * (east_m_s - swift_east),
@@ -56,13 +55,10 @@ def add_difference(
     off = length(swift_east, swift_north) / airspeed_m_s
     if off <= max(CHANGED_SHARE, USUAL_MULTIPLE * sqrt(usual_square)):
         usual_square += (1.0 - exp(-dt / USUAL_S)) * (off * off - usual_square)
-        return WindChange(0.0, mean_east, mean_north, swift_east, swift_north, usual_square), False
+        return WindChange(0.0, swift_east, swift_north, usual_square), False
     since_s += dt
-    share = min(dt / since_s, 1.0)
-    mean_east, mean_north = mean_east + share * (east_m_s - mean_east), mean_north + share * (north_m_s - mean_north)
-    if since_s < CHANGED_S:
-        return WindChange(since_s, mean_east, mean_north, swift_east, swift_north, usual_square), False
-    return WindChange(0.0, mean_east, mean_north, 0.0, 0.0, usual_square), True
+    has_changed = since_s >= CHANGED_S
+    return WindChange(0.0 if has_changed else since_s, swift_east, swift_north, usual_square), has_changed
 
 
 class AirErrors(NamedTuple):
@@ -130,8 +126,8 @@ def add_air_velocity(wind: WindFit, state: State, off: float, removed_deg: float
         true_east, true_north = without_errors(errors, east, north, right_east, right_north)
         change, has_changed = add_difference(change, true_east - wind_east, true_north - wind_north, V, dt)
         if has_changed:
-            means, known_s = shift_means(means, change.mean_east_m_s, change.mean_north_m_s), CHANGED_S
-            expected = errors
+            means, known_s = shift_means(means, change.swift_east_m_s, change.swift_north_m_s), SWIFT_S
+            expected, change = errors, WindChange(0.0, 0.0, 0.0, change.usual_square)
         if change.since_s > 0.0:
             return WindFit(wind_east, wind_north, errors, expected, known_s, means, change)
     known_s = min(known_s + dt, WIND_MEMORY_S)

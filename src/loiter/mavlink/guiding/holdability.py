@@ -29,14 +29,15 @@ FIRST_S = 5.0
 LEAST_RATIO, UNSETTLED = 0.9, 0.2
 
 # What is not known before the aircraft is downwind is forecast: there its bank grows, and it slips as much as it has at
-# its worst, within the bounds above, which is forgotten over this time, seconds; its airspeed exceeds that of tight
-# turns by what the latter exceeds its mean, by this share at most: in turbulence more than that is chance.
-SLIP_MEMORY_S, LARGEST_RISE = 120.0, 0.05
+# its worst, in still air too, within the bound for the present wind. That is forgotten over this time, seconds. Its
+# airspeed exceeds that of tight turns by what the latter exceeds its mean, by this share at most: in turbulence more
+# than that is chance.
+SLIP_MEMORY_S, LARGEST_RISE = 120.0, 0.02
 
 # A warning is given where the tightest circle by that forecast has been wider than the circle for the first time,
 # seconds. The circle is given up where it has been wider by this share for the second time, if the aircraft slips: its
-# least ratio is below the last.
-WARNED_S, FORECAST_S, TOO_TIGHT, SLIPS = 2.0, 3.0, 0.04, 0.93
+# least ratio is below the fourth number; and if the wind is more than the last share of the airspeed.
+WARNED_S, FORECAST_S, TOO_TIGHT, SLIPS, WINDY = 2.0, 2.8, 0.02, 0.93, 0.2
 
 
 class Tightest(NamedTuple):
@@ -97,24 +98,29 @@ class HoldabilityWatch:
         if now < self._began + FIRST_S:
             return ""
         wind, V = (estimates.wind_east_m_s, estimates.wind_north_m_s), estimates.turn_airspeed_m_s
-        k = min(max(estimates.turn_ratio, LEAST_RATIO - UNSETTLED * min(hypot(*wind) / V, 1.0)), 1.0)
-        tightest = Tightest(*wind, V, k, self._limit_deg)
-        downwind = self._forecast(tightest, estimates.airspeed_m_s, dt)
+        bound, k = LEAST_RATIO - UNSETTLED * min(hypot(*wind) / V, 1.0), estimates.turn_ratio
+        self._least_ratio = min(k, self._least_ratio + (k - self._least_ratio) * dt / SLIP_MEMORY_S)
+        tightest = Tightest(*wind, V, min(max(k, bound), 1.0), self._limit_deg)
+        slipping = tightest._replace(turn_ratio=max(self._least_ratio, bound))
+        downwind = self._forecast(slipping, estimates.airspeed_m_s, dt)
         excess = LARGEST if hypot(*wind) >= V else min(tightest.excess(self._radius_m), LARGEST)
         self._sum_s = max(self._sum_s + (excess - TOLERATED) * dt, 0.0)
         if excess > TOLERATED and self._sum_s >= GIVEN_UP_S:
             return tightest.problem(self._radius_m)
         return downwind.problem(self._radius_m) if self._refused_s >= FORECAST_S else ""
 
-    def _forecast(self, tightest: Tightest, airspeed_m_s: float, dt: float) -> Tightest:
-        """The forecast for where the aircraft is downwind; updates the warning. `airspeed_m_s` is the mean airspeed."""
-        k, V = tightest.turn_ratio, tightest.airspeed_m_s
-        self._least_ratio = min(k, self._least_ratio + (k - self._least_ratio) * dt / SLIP_MEMORY_S)
+    def _forecast(self, slipping: Tightest, airspeed_m_s: float, dt: float) -> Tightest:
+        """The forecast for where the aircraft is downwind, from the tightest circle with the least ratio.
+
+        Updates the warning. `airspeed_m_s` is the mean airspeed.
+        """
+        V = slipping.airspeed_m_s
         rise_m_s = min(max(V - airspeed_m_s, 0.0), LARGEST_RISE * airspeed_m_s)
-        downwind = tightest._replace(turn_ratio=self._least_ratio, airspeed_m_s=airspeed_m_s + 2.0 * rise_m_s)
-        excess = downwind.excess(self._radius_m) if tightest.wind_m_s < V else 0.0
+        downwind = slipping._replace(airspeed_m_s=airspeed_m_s + 2.0 * rise_m_s)
+        excess = downwind.excess(self._radius_m) if slipping.wind_m_s < V else 0.0
         self._warned_s = self._warned_s + dt if excess > 0.0 else 0.0
-        self._refused_s = self._refused_s + dt if excess > TOO_TIGHT and self._least_ratio < SLIPS else 0.0
+        is_refused = excess > TOO_TIGHT and slipping.turn_ratio < SLIPS and slipping.wind_m_s > WINDY * V
+        self._refused_s = self._refused_s + dt if is_refused else 0.0
         if self._warned_s >= WARNED_S:
             self.warning = f"The circle may not be held downwind: {downwind.problem(self._radius_m)}."
         return downwind
