@@ -3537,7 +3537,10 @@ end
 local function estimates_of(now, airspeeds)
     local rate_deg_s = param:get("RLL2SRV_RMAX") or 0.0
     return {
-        roll = {time_s = ROLL_TIME_S, rate_deg_s = rate_deg_s > 0.0 and rate_deg_s or ROLL_RATE_DEG_S, lag_s = 0.0},
+        roll = {
+            time_s = ROLL_TIME_S, rate_deg_s = rate_deg_s > 0.0 and rate_deg_s or ROLL_RATE_DEG_S, lag_s = 0.0,
+            slew_deg_s = math.huge,
+        },
         delay_s = delay_s, turn_ratio = turns.slow.ratio, quick_turn_ratio = turns.quick.ratio,
         course_lead_s = turns.lead.lead_s, wind_east_m_s = now.wind_east_m_s, wind_north_m_s = now.wind_north_m_s,
         airspeed_m_s = airspeeds.always.value, turn_airspeed_m_s = airspeeds.in_turns.value, overshoot_deg = 0.0,
