@@ -117,16 +117,16 @@ def test_a_bank_whose_rate_lags_delays_a_turn(roll, begin):
     assert delay.moment_s2 == pytest.approx(moment, abs=0.02)
 
 
-@pytest.mark.parametrize("lag_s", [0.0, 0.05, 0.3])
+@pytest.mark.parametrize("lag_s", [0.0, 0.3])
 @pytest.mark.parametrize(("time_s", "rate", "slew"), [(0.4, 70.0, 90.0), (0.2, 100.0, 40.0), (0.6, 40.0, 200.0)])
 @pytest.mark.parametrize("ahead", [-20.0, 25.0])
 @pytest.mark.parametrize(("begin", "target"), [(-50.0, 50.0), (-50.0, 20.0), (10.0, -30.0), (12.0, 15.0)])
 def test_a_command_with_a_slew_rate_delays_a_turn(lag_s, time_s, rate, slew, ahead, begin, target):
     """Beside small steps: first the command follows the demand, then the bank the command."""
-    roll, step, bank, turning, missing, moment = RollValues(time_s, rate, lag_s, slew), 2e-3, begin, 0.0, 0.0, 0.0
+    roll, step, bank, turning, missing, moment = RollValues(time_s, rate, lag_s, slew), 4e-3, begin, 0.0, 0.0, 0.0
     command = clip(begin + ahead, 50.0)
     delay = turn_delay(roll, Rolling(Bank(begin, 0.0), command), target, 50.0)
-    for i in range(5000):
+    for i in range(2500):
         demand = demand_deg(roll, Bank(bank, turning), target, 50.0)
         command += clip(demand - command, slew * step)
         wanted = (command - bank) / time_s
