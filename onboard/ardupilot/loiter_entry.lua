@@ -2,7 +2,7 @@
 --
 -- Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
 --
--- SHA-256 of the source: 493a2b8c69b8ae4e97d825d1e9ca40c77a3889fd9a529e82d2ee55013ae6d1ef
+-- SHA-256 of the source: 6cc306cbe64e266623722d058a5670393a3f244a721c3c0c1a28e8dd1e9df499
 --
 -- When a switch asks for it, this script flies a plane onto the holding circle around its present target in least
 -- time, and then leaves the circle to ArduPlane: loiter_entry.md. It works by GUIDED_CHANGE_HEADING in GUIDED: the target
@@ -600,7 +600,6 @@ function law.is_changed(roll, before)
     local time_s, lag_s = before.time_s, before.lag_s
     return abs(roll.time_s - time_s) > 0.01--[[ROLL_CHANGED]] * time_s or abs(roll.rate_deg_s - before.rate_deg_s) >
             0.01--[[ROLL_CHANGED]] * before.rate_deg_s or abs(roll.lag_s - lag_s) > 0.01--[[ROLL_CHANGED]] * time_s
-            or roll.slew_deg_s ~= before.slew_deg_s
 end
 
 -- Radius of a coordinated turn, metres: V^2 / (g tan bank).
@@ -792,8 +791,8 @@ end
 -- `turn_delay` of a bank whose rate has a lag, or whose command a slew rate.
 --
 -- It is flown in steps until the change is small; the rest is linear.
-function law.stepped_delay(roll, rolling, target_deg, limit_deg)
-    local now, command_deg = rolling.now, rolling.command_deg
+function law.stepped_delay(roll, state, target_deg, limit_deg)
+    local now, command_deg = state.now, state.command_deg
     local gain, braking_s, tangent = law.command_gain(roll), law.rate_gain_s(roll), tan(target_deg *
             0.017453292519943295)
     local missing_s, moment_s2, time_s, is_limited, left = 0.0, 0.0, 0.0, true, 24--[[STEPS]]
@@ -831,11 +830,11 @@ function law.stepped_delay(roll, rolling, target_deg, limit_deg)
 end
 
 -- How a change of bank under `demand_deg` delays a turn. The turn rate is proportional to tan(bank).
-function law.turn_delay(roll, rolling, target_deg, limit_deg)
+function law.turn_delay(roll, state, target_deg, limit_deg)
     if roll.lag_s == 0.0 and roll.slew_deg_s == huge then
-        return law.first_order_delay(roll, rolling.now.bank_deg, target_deg, limit_deg)
+        return law.first_order_delay(roll, state.now.bank_deg, target_deg, limit_deg)
     end
-    return law.stepped_delay(roll, rolling, target_deg, limit_deg)
+    return law.stepped_delay(roll, state, target_deg, limit_deg)
 end
 
 -- When a change of bank from rest, under `demand_deg`, changes the turn rate.
@@ -1335,7 +1334,7 @@ function law.sense(sensing, vehicle, measurement, step_s, smoothing_s, covered_s
 end
 
 -- What is known, with the command that the vehicle follows at present.
-function law.following(sensing, command_deg)
+function law.with_command(sensing, command_deg)
     return with_fields(sensing, {command_deg = command_deg})
 end
 
@@ -1574,8 +1573,8 @@ end
 --
 -- A lag of the bank rate keeps it for a time in effect. A command that lies q ahead of the bank returns to it at
 -- the slew rate S: with q' = -S - q/tau, the bank meanwhile changes by q - S tau ln(1 + q/(S tau)).
-function law.coasted_deg(roll, rolling)
-    local now, command_deg = rolling.now, rolling.command_deg
+function law.coasted_deg(roll, state)
+    local now, command_deg = state.now, state.command_deg
     local bank_deg = now.bank_deg
     if roll.lag_s > 0.0 then
         bank_deg = bank_deg + roll.time_s * roll.lag_s / (roll.time_s + law.rate_gain_s(roll)) * now.rate_deg_s
@@ -1592,20 +1591,20 @@ end
 -- After how long a change from the bank of one piece to that of another takes effect, seconds.
 --
 -- Banks are in half degrees; `first_missing_s` is what the turn to the first one misses (`TurnDelay`).
-function law.change_delay_s(roll, rolling, limit_deg, first, first_missing_s, second)
+function law.change_delay_s(roll, state, limit_deg, first, first_missing_s, second)
     if first == second then
         return 0.0
     end
-    local missing_s = law.turn_delay(roll, rolling, 0.5 * second, limit_deg).missing_s
+    local missing_s = law.turn_delay(roll, state, 0.5 * second, limit_deg).missing_s
     return (first_missing_s - missing_s) / (tan(0.5 * first * 0.017453292519943295) - tan(0.5 * second *
             0.017453292519943295))
 end
 
 -- How changes from a bank to those of the pieces of a route are delayed; what is known is not computed again.
-function law.leads_to(limits, leads, rolling, route)
-    local now, u3 = rolling.now, law.last_control(route)
+function law.leads_to(limits, leads, state, route)
+    local now, u3 = state.now, law.last_control(route)
     local bank, rate = law.half_degrees(now.bank_deg), law.half_degrees(now.rate_deg_s / 4.0--[[RATE_STEPS]])
-    local command = limits.roll.slew_deg_s < huge and law.half_degrees(rolling.command_deg) or 0
+    local command = limits.roll.slew_deg_s < huge and law.half_degrees(state.command_deg) or 0
     local first, second = law.half_deg_on(limits, route, route.current), law.half_deg_on(limits, route,
             route.second)
     local last = u3 == -2--[[ABSENT]] and route.side * limits.hold_half_deg or -u3 * limits.planned_half_deg
@@ -1615,13 +1614,13 @@ function law.leads_to(limits, leads, rolling, route)
     end
     local roll, limit_deg = limits.roll, limits.limit_deg
     now = {bank_deg = 0.5 * bank, rate_deg_s = 0.5 * 4.0--[[RATE_STEPS]] * rate}
-    rolling = {now = now, command_deg = 0.5 * command}
+    state = {now = now, command_deg = 0.5 * command}
     local there = tan(now.bank_deg * 0.017453292519943295)
     local first_s = law.small_onset(roll).lead_s
-    local first_delay = law.turn_delay(roll, rolling, 0.5 * first, limit_deg)
+    local first_delay = law.turn_delay(roll, state, 0.5 * first, limit_deg)
     local first_missing_s = first_delay.missing_s
     local tangent = tan(0.5 * first * 0.017453292519943295)
-    local unchanged_deg = law.clip(law.coasted_deg(roll, rolling), limit_deg)
+    local unchanged_deg = law.clip(law.coasted_deg(roll, state), limit_deg)
     local current_s = first_s
     if abs(0.5 * first - unchanged_deg) > 5.0--[[SMALL_CHANGE_DEG]] then
         current_s = max(first_missing_s / (tangent - tan(unchanged_deg * 0.017453292519943295)), 0.5 * first_s)
@@ -1629,8 +1628,8 @@ function law.leads_to(limits, leads, rolling, route)
         current_s = first_missing_s / (tangent - there)
     end
     local more = current_s > 0.0 and first ~= bank and tangent - first_missing_s / current_s - there or 0.0
-    local next_s = law.change_delay_s(roll, rolling, limit_deg, first, first_missing_s, second) - current_s
-    local last_s = law.change_delay_s(roll, rolling, limit_deg, first, first_missing_s, last) - current_s
+    local next_s = law.change_delay_s(roll, state, limit_deg, first, first_missing_s, second) - current_s
+    local last_s = law.change_delay_s(roll, state, limit_deg, first, first_missing_s, last) - current_s
     local displaced_s2 = first_delay.moment_s2 - 0.5 * first_missing_s * current_s
     return {bank = bank, rate = rate, command = command, current = first, next = second, last = last, current_s =
             current_s, more = more, next_s = next_s, last_s = last_s, displaced_s2 = displaced_s2}
@@ -1930,7 +1929,7 @@ function law.prepare(memory, settings, vehicle, measurement)
     local smoothing_s, covered_s = settings.smoothing_s, settings.covered_s
     local sensing = law.sense(memory.sensing, vehicle, measurement, memory.step_s, smoothing_s, covered_s)
     local command_deg = memory.step_s > 0.0 and memory.command.bank_deg or vehicle.bank_deg
-    memory = with_fields(memory, {sensing = law.following(sensing, command_deg)})
+    memory = with_fields(memory, {sensing = law.with_command(sensing, command_deg)})
     if not memory.sensing.is_known then
         return with_fields(memory, {planning = law.drop_search(memory.planning)})
     end

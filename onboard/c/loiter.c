@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 3d72282c9a5b0410f8ea74eb8ecc8130121f206f3b093b5e5f5a11d24d863e7d
+ * SHA-256 of the source: 650b49e7df614004c8c1d8b78a75fa1fc034e7961b202b33766ad42216fc6f26
  */
 #include "loiter.h"
 
@@ -358,7 +358,7 @@ typedef struct { real lead_s, variance_s2; } TurnOnset;
 typedef struct { real bank_deg, rate_deg_s; } Bank;
 
 /* A bank, and the command that it follows at present, which counts only where that has a slew rate; degrees. */
-typedef struct { Bank now; real command_deg; } Rolling;
+typedef struct { Bank now; real command_deg; } BankState;
 
 /* How a change of bank delays a turn.
  *
@@ -3677,8 +3677,7 @@ static inline real present_limit_deg(const Settings *settings, const VehicleEsti
 static inline bool is_changed(RollValues roll, RollValues before) {
     const real time_s = before.time_s, lag_s = before.lag_s;
     return real_fabs(roll.time_s - time_s) > ROLL_CHANGED * time_s || real_fabs(roll.rate_deg_s - before.rate_deg_s)
-            > ROLL_CHANGED * before.rate_deg_s || real_fabs(roll.lag_s - lag_s) > ROLL_CHANGED * time_s ||
-            roll.slew_deg_s != before.slew_deg_s;
+            > ROLL_CHANGED * before.rate_deg_s || real_fabs(roll.lag_s - lag_s) > ROLL_CHANGED * time_s;
 }
 
 /* A bank in whole half degrees. */
@@ -3856,9 +3855,9 @@ static inline TurnDelay linear_delay(RollValues roll, real beyond_deg, real rate
  *
  * It is flown in steps until the change is small; the rest is linear.
  */
-static inline TurnDelay stepped_delay(RollValues roll, Rolling rolling, real target_deg, real limit_deg) {
-    Bank now = rolling.now;
-    real command_deg = rolling.command_deg;
+static inline TurnDelay stepped_delay(RollValues roll, BankState state, real target_deg, real limit_deg) {
+    Bank now = state.now;
+    real command_deg = state.command_deg;
     const real gain = command_gain(roll), braking_s = rate_gain_s(roll), tangent = real_tan(target_deg *
             REAL(0.017453292519943295));
     real missing_s = REAL(0.0), moment_s2 = REAL(0.0), time_s = REAL(0.0);
@@ -3901,11 +3900,11 @@ static inline TurnDelay stepped_delay(RollValues roll, Rolling rolling, real tar
 }
 
 /* How a change of bank under `demand_deg` delays a turn. The turn rate is proportional to tan(bank). */
-static inline TurnDelay turn_delay(RollValues roll, Rolling rolling, real target_deg, real limit_deg) {
+static inline TurnDelay turn_delay(RollValues roll, BankState state, real target_deg, real limit_deg) {
     if (roll.lag_s == REAL(0.0) && roll.slew_deg_s == REAL_INFINITY) {
-        return first_order_delay(roll, rolling.now.bank_deg, target_deg, limit_deg);
+        return first_order_delay(roll, state.now.bank_deg, target_deg, limit_deg);
     }
-    return stepped_delay(roll, rolling, target_deg, limit_deg);
+    return stepped_delay(roll, state, target_deg, limit_deg);
 }
 
 /* When a change of bank from rest, under `demand_deg`, changes the turn rate. */
@@ -3915,7 +3914,7 @@ static inline TurnOnset turn_onset(RollValues roll, real bank_deg, real target_d
     if (change == REAL(0.0)) {
         return small_onset(roll);
     }
-    const TurnDelay delay = turn_delay(roll, MAKE(Rolling){MAKE(Bank){bank_deg, REAL(0.0)}, bank_deg}, target_deg,
+    const TurnDelay delay = turn_delay(roll, MAKE(BankState){MAKE(Bank){bank_deg, REAL(0.0)}, bank_deg}, target_deg,
             limit_deg);
     const real lead_s = delay.missing_s / change;
     return MAKE(TurnOnset){lead_s, max_real(REAL(2.0) * delay.moment_s2 / change - lead_s * lead_s, REAL(0.0))};
@@ -4458,7 +4457,7 @@ static inline void sense(Rings *rings, Sensing *sensing, const VehicleModel *veh
 }
 
 /* What is known, with the command that the vehicle follows at present. */
-static inline void following(Sensing *sensing, real command_deg) {
+static inline void with_command(Sensing *sensing, real command_deg) {
     sensing->command_deg = command_deg;
     return;
 }
@@ -4699,9 +4698,9 @@ static inline integer half_deg_on(const Limits *limits, const Route *route, cons
  * A lag of the bank rate keeps it for a time in effect. A command that lies q ahead of the bank returns to it at
  * the slew rate S: with q' = -S - q/tau, the bank meanwhile changes by q - S tau ln(1 + q/(S tau)).
  */
-static inline real coasted_deg(RollValues roll, Rolling rolling) {
-    const Bank now = rolling.now;
-    const real command_deg = rolling.command_deg;
+static inline real coasted_deg(RollValues roll, BankState state) {
+    const Bank now = state.now;
+    const real command_deg = state.command_deg;
     real bank_deg = now.bank_deg;
     if (roll.lag_s > REAL(0.0)) {
         bank_deg += roll.time_s * roll.lag_s / (roll.time_s + rate_gain_s(roll)) * now.rate_deg_s;
@@ -4720,22 +4719,22 @@ static inline real coasted_deg(RollValues roll, Rolling rolling) {
  *
  * Banks are in half degrees; `first_missing_s` is what the turn to the first one misses (`TurnDelay`).
  */
-static inline real change_delay_s(RollValues roll, Rolling rolling, real limit_deg, integer first, real
+static inline real change_delay_s(RollValues roll, BankState state, real limit_deg, integer first, real
         first_missing_s, integer second) {
     if (first == second) {
         return REAL(0.0);
     }
-    const real missing_s = turn_delay(roll, rolling, REAL(0.5) * (real)second, limit_deg).missing_s;
+    const real missing_s = turn_delay(roll, state, REAL(0.5) * (real)second, limit_deg).missing_s;
     return (first_missing_s - missing_s) / (real_tan(REAL(0.5) * (real)first * REAL(0.017453292519943295)) -
             real_tan(REAL(0.5) * (real)second * REAL(0.017453292519943295)));
 }
 
 /* How changes from a bank to those of the pieces of a route are delayed; what is known is not computed again. */
-static inline Leads leads_to(const Limits *limits, const Leads *leads, Rolling rolling, const Route *route) {
-    Bank now = rolling.now;
+static inline Leads leads_to(const Limits *limits, const Leads *leads, BankState state, const Route *route) {
+    Bank now = state.now;
     const integer u3 = last_control(route);
     const integer bank = half_degrees(now.bank_deg), rate = half_degrees(now.rate_deg_s / RATE_STEPS);
-    const integer command = limits->roll.slew_deg_s < REAL_INFINITY ? half_degrees(rolling.command_deg) : 0;
+    const integer command = limits->roll.slew_deg_s < REAL_INFINITY ? half_degrees(state.command_deg) : 0;
     const integer first = half_deg_on(limits, route, &route->current), second = half_deg_on(limits, route,
             &route->second);
     const integer last = u3 == ABSENT ? route->side * limits->hold_half_deg : -u3 * limits->planned_half_deg;
@@ -4746,13 +4745,13 @@ static inline Leads leads_to(const Limits *limits, const Leads *leads, Rolling r
     const RollValues roll = limits->roll;
     const real limit_deg = limits->limit_deg;
     now = MAKE(Bank){REAL(0.5) * (real)bank, REAL(0.5) * RATE_STEPS * (real)rate};
-    rolling = MAKE(Rolling){now, REAL(0.5) * (real)command};
+    state = MAKE(BankState){now, REAL(0.5) * (real)command};
     const real there = real_tan(now.bank_deg * REAL(0.017453292519943295));
     const real first_s = small_onset(roll).lead_s;
-    const TurnDelay first_delay = turn_delay(roll, rolling, REAL(0.5) * (real)first, limit_deg);
+    const TurnDelay first_delay = turn_delay(roll, state, REAL(0.5) * (real)first, limit_deg);
     const real first_missing_s = first_delay.missing_s;
     const real tangent = real_tan(REAL(0.5) * (real)first * REAL(0.017453292519943295));
-    const real unchanged_deg = clip(coasted_deg(roll, rolling), limit_deg);
+    const real unchanged_deg = clip(coasted_deg(roll, state), limit_deg);
     real current_s = first_s;
     if (real_fabs(REAL(0.5) * (real)first - unchanged_deg) > SMALL_CHANGE_DEG) {
         current_s = max_real(first_missing_s / (tangent - real_tan(unchanged_deg * REAL(0.017453292519943295))),
@@ -4762,8 +4761,8 @@ static inline Leads leads_to(const Limits *limits, const Leads *leads, Rolling r
     }
     const real more = current_s > REAL(0.0) && first != bank ? tangent - first_missing_s / current_s - there :
             REAL(0.0);
-    const real next_s = change_delay_s(roll, rolling, limit_deg, first, first_missing_s, second) - current_s;
-    const real last_s = change_delay_s(roll, rolling, limit_deg, first, first_missing_s, last) - current_s;
+    const real next_s = change_delay_s(roll, state, limit_deg, first, first_missing_s, second) - current_s;
+    const real last_s = change_delay_s(roll, state, limit_deg, first, first_missing_s, last) - current_s;
     const real displaced_s2 = first_delay.moment_s2 - REAL(0.5) * first_missing_s * current_s;
     return MAKE(Leads){bank, rate, command, first, second, last, current_s, more, next_s, last_s, displaced_s2};
 }
@@ -4875,7 +4874,7 @@ static inline void advance_plan(Planning *planning, const Settings *settings, co
     real early_s;
     while (true) {
         const Bank now = MAKE(Bank){estimate.bank_deg, sensing->bank_rate_deg_s};
-        leads = leads_to(limits, &leads, MAKE(Rolling){now, sensing->command_deg}, &route);
+        leads = leads_to(limits, &leads, MAKE(BankState){now, sensing->command_deg}, &route);
         const Estimate stored_1 = turning_more(&estimate, leads.more);
         const Estimate later = estimate_after(&stored_1, leads.current_s);
         const RelativeState stored_2 = relative_state(settings, &later);
@@ -5109,7 +5108,7 @@ static APART void prepare(Rings *rings, Memory *memory, const Settings *settings
     const Sensing sensing = changed_1;
     const real command_deg = memory->step_s > REAL(0.0) ? memory->command.bank_deg : vehicle->bank_deg;
     Sensing changed_2 = sensing;
-    following(&changed_2, command_deg);
+    with_command(&changed_2, command_deg);
     memory->sensing = changed_2;
     if (!memory->sensing.is_known) {
         drop_search(&memory->planning);

@@ -6,7 +6,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 3d72282c9a5b0410f8ea74eb8ecc8130121f206f3b093b5e5f5a11d24d863e7d
+ * SHA-256 of the source: 650b49e7df614004c8c1d8b78a75fa1fc034e7961b202b33766ad42216fc6f26
  */
 #ifndef LOITER_ONBOARD_H
 #define LOITER_ONBOARD_H

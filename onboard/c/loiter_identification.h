@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 1711333ba8b746878caecd44cda4925d48e94893896d5b85032cb37a0857b6a8
+ * SHA-256 of the source: 5ac32c614193fe368b00f8c4828b218fd89b9529137ea2a6c20484a31d1c0e24
  */
 #ifndef LOITER_IDENTIFICATION_H
 #define LOITER_IDENTIFICATION_H

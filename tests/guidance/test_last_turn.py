@@ -10,7 +10,7 @@ from guidance.biased_trials import biased_trials
 from loiter.guidance.entry.entry_planner import RelativeState
 from loiter.guidance.entry.plan import displaced
 from loiter.guidance.entry.route import NO_PIECE, NO_ROUTE, last_radius_m, with_last_line, with_last_turn
-from loiter.guidance.vehicle import Bank, Rolling, RollValues, demand_deg, roll_after, turn_delay
+from loiter.guidance.vehicle import Bank, BankState, RollValues, demand_deg, roll_after, turn_delay
 from loiter.planning.model import STANDARD_GRAVITY_M_S2
 from native.library import needs_compiler
 
@@ -74,7 +74,7 @@ def test_a_reversal_displaces_the_aircraft_as_reckoned(roll):
     """Beside the aircraft of the theory, which changes its turn rate at once after the delay, at small angles."""
     limit_deg, target_deg, dt = 45.0, 35.0, 1e-3
     start_deg, end = -40.0, tan(radians(target_deg))
-    delay = turn_delay(roll, Rolling(Bank(start_deg, 0.0), start_deg), target_deg, limit_deg)
+    delay = turn_delay(roll, BankState(Bank(start_deg, 0.0), start_deg), target_deg, limit_deg)
     delay_s = delay.missing_s / (end - tan(radians(start_deg)))
     now, missing, moment, time_s = Bank(start_deg, 0.0), 0.0, 0.0, 0.0
     while time_s < 15.0:

@@ -10,8 +10,8 @@ from loiter.errors import InvalidArgument
 from loiter.guidance.vehicle import (
     INSTANT_ROLL,
     Bank,
+    BankState,
     Roll,
-    Rolling,
     RollValues,
     clip,
     coasted_deg,
@@ -112,7 +112,7 @@ def test_a_bank_whose_rate_lags_delays_a_turn(roll, begin):
         rate = clip(rate + ((command - bank) / roll.time_s - rate) / roll.lag_s * step, roll.rate_deg_s)
         part = (tan(radians(target)) - tan(radians(bank))) * step
         missing, moment, bank = missing + part, moment + part * i * step, bank + rate * step
-    delay = turn_delay(roll, Rolling(begin, 0.0), target, LIMIT_DEG)
+    delay = turn_delay(roll, BankState(begin, 0.0), target, LIMIT_DEG)
     assert delay.missing_s == pytest.approx(missing, abs=0.01)
     assert delay.moment_s2 == pytest.approx(moment, abs=0.02)
 
@@ -125,7 +125,7 @@ def test_a_command_with_a_slew_rate_delays_a_turn(lag_s, time_s, rate, slew, ahe
     """Beside small steps: first the command follows the demand, then the bank the command."""
     roll, step, bank, turning, missing, moment = RollValues(time_s, rate, lag_s, slew), 4e-3, begin, 0.0, 0.0, 0.0
     command = clip(begin + ahead, 50.0)
-    delay = turn_delay(roll, Rolling(Bank(begin, 0.0), command), target, 50.0)
+    delay = turn_delay(roll, BankState(Bank(begin, 0.0), command), target, 50.0)
     for i in range(2500):
         demand = demand_deg(roll, Bank(bank, turning), target, 50.0)
         command += clip(demand - command, slew * step)
@@ -141,7 +141,7 @@ def test_a_command_with_a_slew_rate_delays_a_turn(lag_s, time_s, rate, slew, ahe
 @pytest.mark.parametrize("ahead", [-25.0, -3.0, 0.0, 10.0, 28.0])
 def test_a_bank_goes_on_until_the_command_has_come_back(ahead):
     roll, step, bank, command = RollValues(0.4, 70.0, 0.0, 90.0), 1e-5, 5.0, 5.0 + ahead
-    found = coasted_deg(roll, Rolling(Bank(bank, 0.0), command))
+    found = coasted_deg(roll, BankState(Bank(bank, 0.0), command))
     while (command - bank) * ahead > 0.0:
         command -= clip(ahead, 90.0 * step)
         bank += (command - bank) / roll.time_s * step
@@ -160,7 +160,7 @@ def test_the_mean_of_a_command_on_its_way(begin, demand, change):
 @pytest.mark.parametrize(("begin", "target"), [(-35.0, 15.0), (0.0, 35.0), (20.0, 0.0)])
 def test_a_short_lag_of_the_rate_delays_a_turn_like_none(begin, target):
     none, short = (
-        turn_delay(RollValues(0.5, 60.0, lag_s, inf), Rolling(Bank(begin, 0.0), begin), target, LIMIT_DEG)
+        turn_delay(RollValues(0.5, 60.0, lag_s, inf), BankState(Bank(begin, 0.0), begin), target, LIMIT_DEG)
         for lag_s in (0.0, 1e-4)
     )
     assert short.missing_s == pytest.approx(none.missing_s, abs=0.01)

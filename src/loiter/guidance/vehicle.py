@@ -120,7 +120,7 @@ class Bank(NamedTuple):
     rate_deg_s: float
 
 
-class Rolling(NamedTuple):
+class BankState(NamedTuple):
     """A bank, and the command that it follows at present, which counts only where that has a slew rate; degrees."""
 
     now: Bank
@@ -273,19 +273,19 @@ def roll_after(roll: RollValues, now: Bank, command_deg: float, time_s: float) -
     return bank_after_step(roll, roll_step(roll, time_s), now, command_deg) if time_s > 0.0 else now
 
 
-def turn_delay(roll: RollValues, rolling: Rolling, target_deg: float, limit_deg: float) -> TurnDelay:
+def turn_delay(roll: RollValues, state: BankState, target_deg: float, limit_deg: float) -> TurnDelay:
     """How a change of bank under `demand_deg` delays a turn. The turn rate is proportional to tan(bank)."""
     if roll.lag_s == 0.0 and roll.slew_deg_s == inf:
-        return first_order_delay(roll, rolling.now.bank_deg, target_deg, limit_deg)
-    return stepped_delay(roll, rolling, target_deg, limit_deg)
+        return first_order_delay(roll, state.now.bank_deg, target_deg, limit_deg)
+    return stepped_delay(roll, state, target_deg, limit_deg)
 
 
-def stepped_delay(roll: RollValues, rolling: Rolling, target_deg: float, limit_deg: float) -> TurnDelay:
+def stepped_delay(roll: RollValues, state: BankState, target_deg: float, limit_deg: float) -> TurnDelay:
     """`turn_delay` of a bank whose rate has a lag, or whose command a slew rate.
 
     It is flown in steps until the change is small; the rest is linear.
     """
-    now, command_deg = rolling
+    now, command_deg = state
     gain, braking_s, tangent = command_gain(roll), rate_gain_s(roll), tan(radians(target_deg))
     missing_s, moment_s2, time_s, is_limited, left = 0.0, 0.0, 0.0, True, STEPS
     small_deg, now = small_change_deg(roll), Bank(now.bank_deg, clip(now.rate_deg_s, roll.rate_deg_s))
@@ -372,13 +372,13 @@ def linear_delay(roll: RollValues, beyond_deg: float, rate_deg_s: float, is_limi
     return TurnDelay(missing_s, b * missing_s + a * beyond_deg)
 
 
-def coasted_deg(roll: RollValues, rolling: Rolling) -> float:
+def coasted_deg(roll: RollValues, state: BankState) -> float:
     """The bank to which it goes on where it is at present while no change is wanted, degrees.
 
     A lag of the bank rate keeps it for a time in effect. A command that lies q ahead of the bank returns to it at the
     slew rate S: with q' = -S - q/tau, the bank meanwhile changes by q - S tau ln(1 + q/(S tau)).
     """
-    now, command_deg = rolling
+    now, command_deg = state
     bank_deg = now.bank_deg
     if roll.lag_s > 0.0:
         bank_deg += roll.time_s * roll.lag_s / (roll.time_s + rate_gain_s(roll)) * now.rate_deg_s
@@ -397,7 +397,7 @@ def turn_onset(roll: RollValues, bank_deg: float, target_deg: float, limit_deg: 
     change = tan(radians(target_deg)) - tan(radians(bank_deg))
     if change == 0.0:
         return small_onset(roll)
-    delay = turn_delay(roll, Rolling(Bank(bank_deg, 0.0), bank_deg), target_deg, limit_deg)
+    delay = turn_delay(roll, BankState(Bank(bank_deg, 0.0), bank_deg), target_deg, limit_deg)
     lead_s = delay.missing_s / change
     return TurnOnset(lead_s, max(2.0 * delay.moment_s2 / change - lead_s * lead_s, 0.0))
 

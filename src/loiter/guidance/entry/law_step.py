@@ -24,7 +24,7 @@ from loiter.guidance.entry.plan import (
 )
 from loiter.guidance.entry.route import is_holding, offset_of
 from loiter.guidance.entry.tracking import target_bank
-from loiter.guidance.estimation.observer import Sensing, first_sensing, following, measure_gusts_anew, sense
+from loiter.guidance.estimation.observer import Sensing, first_sensing, measure_gusts_anew, sense, with_command
 from loiter.guidance.protocol import State
 from loiter.guidance.vehicle import Bank, VehicleEstimates, VehicleModel, clip, demand_deg, slewed_command
 from loiter.kernel.wind.wind_search import UNLIMITED
@@ -106,7 +106,7 @@ def prepare(memory: Memory, settings: Settings, vehicle: VehicleModel, measureme
     smoothing_s, covered_s = settings.smoothing_s, settings.covered_s
     sensing = sense(memory.sensing, vehicle, measurement, memory.step_s, smoothing_s, covered_s)
     command_deg = memory.command.bank_deg if memory.step_s > 0.0 else vehicle.bank_deg
-    memory = memory._replace(sensing=following(sensing, command_deg))
+    memory = memory._replace(sensing=with_command(sensing, command_deg))
     if not memory.sensing.is_known:
         return memory._replace(planning=drop_search(memory.planning))
     if vehicle.revision != memory.limits.revision:

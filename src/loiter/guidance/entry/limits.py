@@ -215,7 +215,6 @@ def is_changed(roll: RollValues, before: RollValues) -> bool:
         abs(roll.time_s - time_s) > ROLL_CHANGED * time_s
         or abs(roll.rate_deg_s - before.rate_deg_s) > ROLL_CHANGED * before.rate_deg_s
         or abs(roll.lag_s - lag_s) > ROLL_CHANGED * time_s
-        or roll.slew_deg_s != before.slew_deg_s
     )
 
 

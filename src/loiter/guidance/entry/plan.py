@@ -44,7 +44,7 @@ from loiter.guidance.estimation.observer import Clock, Estimate, Sensing, along_
 from loiter.guidance.vehicle import (
     SMALL_CHANGE_DEG,
     Bank,
-    Rolling,
+    BankState,
     RollValues,
     bank_at_rate,
     clip,
@@ -257,7 +257,7 @@ def advance_plan(planning: Planning, settings: Settings, limits: Limits, sensing
     # Pieces are dropped that are complete, in a plan of its own at most three.
     while True:
         now = Bank(estimate.bank_deg, sensing.bank_rate_deg_s)
-        leads = leads_to(limits, leads, Rolling(now, sensing.command_deg), route)
+        leads = leads_to(limits, leads, BankState(now, sensing.command_deg), route)
         later = estimate_after(turning_more(estimate, leads.more), leads.current_s)
         state = displaced(relative_state(settings, later), estimate.turning.ratio * leads.displaced_s2)
         left_s, early_s = remaining_s(route, state, left_s), early_end_s(route, leads)
@@ -282,11 +282,11 @@ def advance_plan(planning: Planning, settings: Settings, limits: Limits, sensing
     )
 
 
-def leads_to(limits: Limits, leads: Leads, rolling: Rolling, route: Route) -> Leads:
+def leads_to(limits: Limits, leads: Leads, state: BankState, route: Route) -> Leads:
     """How changes from a bank to those of the pieces of a route are delayed; what is known is not computed again."""
-    now, u3 = rolling.now, last_control(route)
+    now, u3 = state.now, last_control(route)
     bank, rate = half_degrees(now.bank_deg), half_degrees(now.rate_deg_s / RATE_STEPS)
-    command = half_degrees(rolling.command_deg) if limits.roll.slew_deg_s < inf else 0
+    command = half_degrees(state.command_deg) if limits.roll.slew_deg_s < inf else 0
     first, second = half_deg_on(limits, route, route.current), half_deg_on(limits, route, route.second)
     last = route.side * limits.hold_half_deg if u3 == ABSENT else -u3 * limits.planned_half_deg
     if (
@@ -300,27 +300,27 @@ def leads_to(limits: Limits, leads: Leads, rolling: Rolling, route: Route) -> Le
         return leads
     roll, limit_deg = limits.roll, limits.limit_deg
     now = Bank(0.5 * bank, 0.5 * RATE_STEPS * rate)
-    rolling = Rolling(now, 0.5 * command)
+    state = BankState(now, 0.5 * command)
     there = tan(radians(now.bank_deg))
     first_s = small_onset(roll).lead_s
-    first_delay = turn_delay(roll, rolling, 0.5 * first, limit_deg)
+    first_delay = turn_delay(roll, state, 0.5 * first, limit_deg)
     first_missing_s = first_delay.missing_s
     tangent = tan(radians(0.5 * first))
-    unchanged_deg = clip(coasted_deg(roll, rolling), limit_deg)
+    unchanged_deg = clip(coasted_deg(roll, state), limit_deg)
     current_s = first_s
     if abs(0.5 * first - unchanged_deg) > SMALL_CHANGE_DEG:
         current_s = max(first_missing_s / (tangent - tan(radians(unchanged_deg))), 0.5 * first_s)
     elif rate == 0 and first != bank and (command == 0 or command == bank):
         current_s = first_missing_s / (tangent - there)
     more = tangent - first_missing_s / current_s - there if current_s > 0.0 and first != bank else 0.0
-    next_s = change_delay_s(roll, rolling, limit_deg, first, first_missing_s, second) - current_s
-    last_s = change_delay_s(roll, rolling, limit_deg, first, first_missing_s, last) - current_s
+    next_s = change_delay_s(roll, state, limit_deg, first, first_missing_s, second) - current_s
+    last_s = change_delay_s(roll, state, limit_deg, first, first_missing_s, last) - current_s
     displaced_s2 = first_delay.moment_s2 - 0.5 * first_missing_s * current_s
     return Leads(bank, rate, command, first, second, last, current_s, more, next_s, last_s, displaced_s2)
 
 
 def change_delay_s(
-    roll: RollValues, rolling: Rolling, limit_deg: float, first: int, first_missing_s: float, second: int
+    roll: RollValues, state: BankState, limit_deg: float, first: int, first_missing_s: float, second: int
 ) -> float:
     """After how long a change from the bank of one piece to that of another takes effect, seconds.
 
@@ -328,7 +328,7 @@ def change_delay_s(
     """
     if first == second:
         return 0.0
-    missing_s = turn_delay(roll, rolling, 0.5 * second, limit_deg).missing_s
+    missing_s = turn_delay(roll, state, 0.5 * second, limit_deg).missing_s
     return (first_missing_s - missing_s) / (tan(radians(0.5 * first)) - tan(radians(0.5 * second)))
 
 

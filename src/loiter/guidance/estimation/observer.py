@@ -596,6 +596,6 @@ def measure_gusts_anew(sensing: Sensing) -> Sensing:
     return sensing._replace(observer=restart_gusts(sensing.observer))
 
 
-def following(sensing: Sensing, command_deg: float) -> Sensing:
+def with_command(sensing: Sensing, command_deg: float) -> Sensing:
     """What is known, with the command that the vehicle follows at present."""
     return sensing._replace(command_deg=command_deg)
