@@ -3,7 +3,8 @@
 # make test   the same with all tests, and the page in a browser: some twenty minutes on two cores
 # make bench  times of the answers and of other methods: table and plot in benchmarks/results; ROWS=0 skips the tables
 # make verify all independent methods, the search over 100,000 random scenes in still air and 1,000 in wind
-# make prove-formal  the theorem on the circle of the turn radius, by Coq (formal/, docs/formal.md)
+# make prove  the lemmas of the proof on the kernel's own formulas, in exact algebra and ball arithmetic (evidence/docs/proof.md)
+# make prove-formal  the theorem on the circle of the turn radius, by Coq (evidence/coq, evidence/docs/formal.md)
 # make docs   the documentation site, in build/docs, with the page in try/: every warning and every broken link is an error
 # make site   the page as static files for any address, in build/site; ADDRESS=https://... for the pictures of links
 # make firefox  the same in Firefox, if it is installed: widths, appearances, axe, without a network
@@ -53,7 +54,7 @@ $(BIN)/python:
 /usr/bin/chromium-headless-shell:
 	@requirements/apt-install chromium-headless-shell
 
-.PHONY: demo check test all-tests bench verify prove-formal docs site firefox notebooks generate pins lint
+.PHONY: demo check test all-tests bench verify prove prove-formal docs site firefox notebooks generate pins lint
 demo: .venv/base.stamp
 	$(BIN)/loiter plan --pose -400 120 90 --orbit 0 0 80 --airspeed 18 --bank 35 --plot demo.png
 
@@ -80,13 +81,16 @@ bench: .venv/dev.stamp
 	$(BIN)/python -m benchmarks --rows $(ROWS)
 
 verify: .venv/dev.stamp
-	$(BIN)/loiter verify --states 100000
-	$(BIN)/loiter verify --witness wind --states 1000
+	$(BIN)/python -m evidence verify --states 100000
+	$(BIN)/python -m evidence verify --witness wind --states 1000
+
+prove: .venv/dev.stamp
+	$(BIN)/python -m evidence prove
 
 prove-formal:
 	@command -v coq_makefile >/dev/null || { \
 	  echo "Coq 8.16 with Coquelicot and Interval is needed; Debian: coq libcoq-coquelicot libcoq-interval" >&2; exit 2; }
-	rm -rf build/formal && mkdir -p build/formal && cp formal/* build/formal
+	rm -rf build/formal && mkdir -p build/formal && cp evidence/coq/* build/formal
 	cd build/formal && coq_makefile -f _CoqProject -o Makefile && $(MAKE) --no-print-directory
 
 docs: .venv/docs.stamp site

@@ -17,7 +17,15 @@ import loiter
 from loiter.cli.app import main
 
 # The site's settings and scripts, which its build runs, and what it writes.
-collect_ignore = ["paper", "docs/conf.py", "docs/gallery", "docs/pictures", "docs/reference", "build"]
+collect_ignore = [
+    "paper",
+    "evidence/campaigns",
+    "docs/conf.py",
+    "docs/gallery",
+    "docs/pictures",
+    "docs/reference",
+    "build",
+]
 
 # Files of tests that take more than some six seconds, by folder: `make check` leaves them to `make test`.
 SLOW = {
@@ -26,11 +34,10 @@ SLOW = {
     "cli": "errors guide json man mavlink",
     "compiled": "ufuncs wind_solver",
     "documents": "notebooks package site",
-    "evidence": "collocation formal oracle_check proof reachability rounding signs wind_scan",
+    "evidence": "collocation formal oracle_check proof reachability rounding signs verify wind_scan",
     "guidance": "campaign following identification jsbsim_aircraft law_in_javascript loiter_entry slew",
     "kernel": "cell_bounds wind_search",
     "mavlink": "guide guide_misbehaving mavproxy peers upload watch",
-    "mutation": "mutation",
     "native": "javascript javascript_mutants kernel mutants",
     "planning": "wind",
     "plot": "picture sizes",
@@ -57,7 +64,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
     """Leave out slow files where that is wanted; otherwise pytest decides."""
-    folder = collection_path.parent.name if collection_path.parent.name != "tests" else ""
+    folder = collection_path.parent.name if collection_path.parent.name != "tests" else collection_path.parents[1].name
     slow = collection_path.stem in [f"test_{name}" for name in SLOW.get(folder, "").split()]
     return True if slow and config.getoption("--quick") else None
 

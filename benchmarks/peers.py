@@ -4,9 +4,9 @@ from math import cos, pi, remainder, sin
 
 import numpy as np
 
-from loiter.evidence.checks.collocation import collocate
-from loiter.evidence.checks.oracle import Circle, Planar, Search
-from loiter.evidence.checks.reachability import reach
+from evidence.checks.collocation import collocate
+from evidence.checks.oracle import Circle, Planar, Search
+from evidence.checks.reachability import reach
 
 HEADINGS = 360
 
@@ -30,7 +30,7 @@ def sweep(x, y, R, sides):
 
 
 def program(x, y, R, sides):
-    """T by direct collocation with CasADi and IPOPT (`loiter.evidence.checks.collocation`)."""
+    """T by direct collocation with CasADi and IPOPT (`evidence.checks.collocation`)."""
     return collocate(Planar(x, y, 0.0), [Circle(R, side == 1) for side in sides]).time
 
 

@@ -113,7 +113,7 @@ def any_circle(x, y, R, side):
 
 @numba.vectorize("float64(float64, float64)")
 def tight(x, y):
-    """T for R = 1, either turn, by the regions of the paper, section 6, corrected (docs/paper.md)."""
+    """T for R = 1, either turn, by the regions of the paper, section 6, corrected (evidence/docs/paper.md)."""
     y = abs(y)
     rm2 = x * x + (y - 1.0) * (y - 1.0)
     if rm2 >= 4.0:

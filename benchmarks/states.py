@@ -10,9 +10,9 @@ import numpy as np
 import loiter
 from benchmarks import peers, plain
 from benchmarks.timing import Row, least_times
+from evidence.checks import wind_scan_check
 from loiter import Aircraft, Orbit, Pose
 from loiter.compiled import solver, ufuncs
-from loiter.evidence.checks import wind_scan_check
 from loiter.kernel.wind import wind_search
 from loiter.kernel.wind.wind_search import WindProblem
 from loiter.kernel.words import Side

@@ -135,7 +135,9 @@ html_theme_options = {
 }
 
 CODE = re.compile(r"`([^`]+)`")
-DOCUMENT = re.compile(r"\bdocs/(\w+)\.md\b")
+DOCUMENT = re.compile(r"(?<!evidence/)\bdocs/(\w+)\.md\b")
+EVIDENCE = re.compile(r"\]\((?:\.\./)+evidence/")
+REPOSITORY = "https://github.com/loiter-uav/loiter/blob/main"
 
 
 def as_restructured_text(line: str) -> str:
@@ -155,6 +157,11 @@ def convert_docstring(app, what, name, obj, options, lines):
         example = bool(line.strip()) and (example or line.lstrip().startswith(">>>"))
         if not example:
             lines[i] = as_restructured_text(line)
+
+
+def link_evidence(app, docname, source):
+    """Let links to the evidence, which is not part of the site, lead to the repository."""
+    source[0] = EVIDENCE.sub(f"]({REPOSITORY}/evidence/", source[0])
 
 
 def write_commands(app):
@@ -224,6 +231,7 @@ def write_formula(writer, node):
 def setup(app):
     app.add_html_math_renderer("mathml", (write_inline_formula, None), (write_formula, None))
     app.connect("doctree-resolved", join_punctuation)
+    app.connect("source-read", link_evidence)
     app.connect("builder-inited", write_commands)
     app.connect("builder-inited", replace_thumbnails, priority=900)
     app.connect("autodoc-process-docstring", convert_docstring)

@@ -20,8 +20,6 @@ COMMANDS = [
     "guide",
     "synthesis",
     "figures",
-    "verify",
-    "prove",
     "serve",
     "completion",
 ]
@@ -47,7 +45,6 @@ OFFERED = {
     "loiter plan --pose -400 120 90 --turn e": ["either"],
     "loiter plan --plot de": ["demo.png"],
     "loiter plan --no-such": [],
-    "loiter verify --s": ["--states", "--seed"],
     "loiter completion ": ["bash", "zsh", "fish"],
 }
 

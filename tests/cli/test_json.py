@@ -105,19 +105,6 @@ def test_a_batch(capsys, tmp_path):
     assert document["files"] == [str(tmp_path / "out.csv")]
 
 
-def test_a_verification(capsys):
-    assert main(["verify", "--witness", "digits", "--states", "8", "--json"]) == 0
-    document = strict(capsys.readouterr().out)
-    [method] = document["methods"]
-    assert (document["agrees"], method["method"], method["agrees"]) == (True, "digits", True)
-    assert method["rows"][-1]["next_to"] == "all"
-    assert method["rows"][-1]["states"] == 8
-    # Some circles are as wide as 1e6 turn radii, on which 1e-13 R/30 is allowed.
-    assert method["rows"][-1]["beyond"] == 0
-    assert 0.0 <= method["rows"][-1]["largest_error"] < 1e-13 * 1e6 / 30.0
-    assert 0.0 <= method["rows"][-1]["share_of_allowed"] <= 1.0
-
-
 @pytest.mark.parametrize("vehicle", [Vehicle(), Plane([])])
 def test_an_upload(answered, vehicle):
     with flying(vehicle):

@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import pytest
+
 from benchmarks.report import draw, read, table
 from benchmarks.tables import Run
 from benchmarks.timing import Row

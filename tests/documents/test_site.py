@@ -9,9 +9,9 @@ from pathlib import Path
 from urllib.parse import unquote, urldefrag, urlsplit
 
 import pytest
-from codegen.site import build
 
 import loiter
+from codegen.site import build
 from golden.build_public import PACKAGES
 from web.browsing import AXE, browsing
 

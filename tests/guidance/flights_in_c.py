@@ -14,9 +14,9 @@ from tempfile import mkdtemp
 from typing import NamedTuple
 
 import numpy as np
+
 from codegen.files import LARGE, LAW_ARITHMETIC
 from codegen.unit import Unit
-
 from guidance.test_law_in_c import in_c
 from loiter.guidance.circle import Band
 from loiter.guidance.entry import law_step

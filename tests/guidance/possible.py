@@ -13,8 +13,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from evidence.checks.rolling_check import settling_bound_s
 from loiter import Aircraft
-from loiter.evidence.checks.rolling_check import settling_bound_s
 from loiter.guidance.circle import Band
 from loiter.guidance.protocol import Simulator
 from loiter.guidance.simulators.airframes import AEROSONDE, J3CUB, Airframe

@@ -10,10 +10,10 @@ from pathlib import Path
 from tempfile import mkdtemp
 
 import numpy as np
+
 from codegen.files import LARGE, LAW_ARITHMETIC, LAW_REPLACED
 from codegen.kinds import kind_of_type
 from codegen.unit import Unit
-
 from guidance.flights_in_c import ROOTS, Scene, drawn, roll_kind, vehicle_fields
 from guidance.test_law_in_c import in_c, structure
 from loiter.guidance.entry import slot_step

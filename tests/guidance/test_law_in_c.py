@@ -7,9 +7,9 @@ from math import isnan
 
 import numpy as np
 import pytest
+
 from codegen.files import law
 from codegen.kinds import INTEGER, REAL, TRUTH, Kind, kind_of_type
-
 from guidance.recorded import damaged
 from loiter import Aircraft, Orbit, Pose, Wind
 from loiter.guidance.entry.law_step import LawCommand, Memory

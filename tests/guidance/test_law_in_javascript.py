@@ -5,9 +5,9 @@ import subprocess
 
 import numpy as np
 import pytest
+
 from benchmarks.browsing import NODE
 from codegen.files import law_module
-
 from guidance.recorded import damaged
 from guidance.test_law_in_c import SCENES, START, UAV, same
 from loiter.guidance.entry.loiter_entry import LoiterEntry

@@ -7,9 +7,9 @@ from math import nan
 from types import FunctionType
 
 import pytest
+
 from codegen.files import LAW_ARITHMETIC
 from codegen.unit import Unit
-
 from loiter import Aircraft, Orbit, Pose, Wind
 from loiter.guidance import vehicle as vehicle_model
 from loiter.guidance.entry import entry_planner, law_step, limits, plan, route, tracking

@@ -6,9 +6,9 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from evidence.checks.oracle import Circle, Search, from_compass
 from guidance.circling import settled_s, state_of
 from loiter import Aircraft, Orbit, Pose, Turn
-from loiter.evidence.checks.oracle import Circle, Search, from_compass
 from loiter.guidance.protocol import Phase
 from loiter.guidance.rivals.tangent import SHORT_M, Tangent
 from loiter.planning.compass import heading_vector

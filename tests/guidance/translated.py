@@ -13,9 +13,9 @@ from ctypes import byref, c_bool, c_double
 from pathlib import Path
 
 import numpy as np
+
 from benchmarks.browsing import NODE
 from codegen.files import law_module
-
 from guidance.recorded import LIMIT_DEG, law_for
 from guidance.test_law_in_c import TYPES, Vehicle, compiled, in_c
 from guidance.test_law_in_javascript import in_javascript

@@ -14,9 +14,9 @@ from random import Random
 from typing import NamedTuple
 
 import numpy as np
-from codegen.onboard.lua_files import APPLET, FOLDER
 from lupa.lua53 import LuaRuntime
 
+from codegen.onboard.lua_files import APPLET, FOLDER
 from loiter import Aircraft, Orbit, Pose, Turn, Wind, plan
 from loiter.guidance.circle import Band
 from loiter.guidance.protocol import Command, Phase

@@ -6,6 +6,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
+
 from codegen.onboard import FOLDER
 
 HERE = Path(__file__).parent

@@ -8,10 +8,10 @@ from pathlib import Path
 from types import FunctionType, SimpleNamespace
 
 import numpy as np
+
 from benchmarks.browsing import NODE
 from codegen.files import PAGE
 from codegen.javascript import PORTABLE
-
 from loiter.kernel import adjoint, entry, motion
 from loiter.kernel.entry import first_control
 from loiter.kernel.rebinding import rebinding

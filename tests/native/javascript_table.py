@@ -14,7 +14,6 @@ from codegen.arithmetic import DOUBLE
 from codegen.files import SINGLE
 from codegen.javascript import PORTABLE
 from codegen.unit import Unit
-
 from compiled.windy import PLACES
 from compiled.windy import drawn as drawn_in_wind
 from loiter.kernel.wind.wind_search import WindProblem

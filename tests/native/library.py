@@ -7,8 +7,8 @@ from ctypes import CDLL, POINTER, Structure, byref, c_double, c_int, c_longlong
 from pathlib import Path
 
 import pytest
-from codegen.files import FOLDER
 
+from codegen.files import FOLDER
 from loiter.kernel.entry import Entry
 from loiter.kernel.wind.wind_search import WindEntry
 

@@ -16,10 +16,10 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import numpy as np
-from codegen.lua import LUA, LUA_32BITS
-from codegen.onboard.lua_files import law as law_chunk
 from lupa.lua53 import LuaRuntime
 
+from codegen.lua import LUA, LUA_32BITS
+from codegen.onboard.lua_files import law as law_chunk
 from loiter import Aircraft, Turn, Wind
 from loiter.guidance.protocol import Command, Phase, State
 from loiter.guidance.trials.campaign import outcome, trials

@@ -20,9 +20,9 @@ from pathlib import Path
 from tempfile import mkdtemp
 
 import numpy as np
+
 from codegen.kinds import INTEGER, REAL, TRUTH, kind_of_type
 from codegen.onboard import FOLDER
-
 from loiter.guidance.entry.law_step import LawCommand
 from loiter.guidance.entry.limits import Settings
 from loiter.guidance.entry.loiter_entry import NAMED_PHASES, NAMED_TURNS, LoiterEntry

@@ -8,11 +8,11 @@ from random import Random
 
 import numpy as np
 import pytest
+from lupa.lua53 import LuaRuntime
+
 from codegen.arithmetic import CONSTANTS
 from codegen.lua import LUA
 from codegen.onboard.lua_files import APPLET, FOLDER, applet_files, law
-from lupa.lua53 import LuaRuntime
-
 from guidance.test_law_in_c import START, UAV, same
 from loiter import Aircraft, Orbit, Pose, Wind
 from loiter.guidance.entry import join_tracking

@@ -4,14 +4,14 @@ import re
 from importlib import import_module
 from itertools import chain
 
-import hatch_build
 import pytest
+
+import hatch_build
 from codegen.arithmetic import CONSTANTS, DOUBLE
 from codegen.files import FOLDER, PAGE, files
 from codegen.javascript import PORTABLE, Module
 from codegen.kinds import NotTranslated
 from codegen.unit import ROOT, Unit
-
 from loiter.compiled.solver import single
 from native import same_names, untranslatable
 

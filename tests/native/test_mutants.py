@@ -7,8 +7,8 @@ from hashlib import sha256
 from random import Random
 
 import pytest
-from codegen.files import FOLDER
 
+from codegen.files import FOLDER
 from loiter.kernel.wind.wind_search import WindProblem
 from native.library import build, counting, needs_compiler
 from native.states import SPECIAL, drawn

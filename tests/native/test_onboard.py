@@ -8,9 +8,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+
 from codegen.onboard import FOLDER, onboard_files
 from codegen.unit import ROOT
-
 from compiled.windy import BAD, drawn
 from golden.wind_scenes import CORNERS
 from guidance.recorded import damaged, law_for, scene

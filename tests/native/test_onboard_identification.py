@@ -4,8 +4,8 @@ import subprocess
 from ctypes import CDLL, POINTER, c_double, c_uint32, c_void_p
 
 import pytest
-from codegen.onboard import FOLDER
 
+from codegen.onboard import FOLDER
 from loiter import Aircraft, Orbit, Pose, Wind
 from loiter.guidance.entry.loiter_entry import LoiterEntry
 from loiter.guidance.simulators.point_mass import PointMass

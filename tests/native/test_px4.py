@@ -13,8 +13,8 @@ from pathlib import Path
 from tempfile import mkdtemp
 
 import pytest
-from codegen.unit import ROOT
 
+from codegen.unit import ROOT
 from native.library import COMPILER, needs_compiler
 
 CPP = shutil.which("c++")

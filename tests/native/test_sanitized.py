@@ -5,10 +5,10 @@ import shutil
 import subprocess
 from pathlib import Path
 
-import hatch_build
 import pytest
-from codegen.files import FOLDER
 
+import hatch_build
+from codegen.files import FOLDER
 from native.library import COMPILER, needs_compiler
 
 pytestmark = needs_compiler

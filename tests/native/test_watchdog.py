@@ -6,9 +6,9 @@
 from math import hypot, inf
 
 import pytest
-from codegen.onboard.lua_files import FOLDER
 from lupa.lua53 import LuaError
 
+from codegen.onboard.lua_files import FOLDER
 from loiter import Orbit, Pose
 from loiter.guidance.circle import Band
 from loiter.guidance.simulators.airframes import AEROSONDE

@@ -13,9 +13,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from evidence.checks.collocation import IPOPT, LONGEST, interval_ends, velocity
+from evidence.checks.oracle import Planar, from_compass
 from loiter import Turn, plan_leg
-from loiter.evidence.checks.collocation import IPOPT, LONGEST, interval_ends, velocity
-from loiter.evidence.checks.oracle import Planar, from_compass
 from planning.legs import climb_time, random_leg
 
 # Intervals of the even mesh, on which every guess is tried, and of the free one, for the best of them.

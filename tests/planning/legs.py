@@ -11,9 +11,9 @@ from math import acos, asin, cos, sqrt, tau
 
 import numpy as np
 
+from evidence.checks.oracle import Circle, Search, from_compass
+from evidence.checks.wind_scan import DriftingCircle, first_times
 from loiter import Aircraft, Leg, Orbit, Pose, Turn, Wind, plan_leg
-from loiter.evidence.checks.oracle import Circle, Search, from_compass
-from loiter.evidence.checks.wind_scan import DriftingCircle, first_times
 
 # Points of joining per turn; between two of them the plan may be sooner than the enumeration, never later.
 JOINS = 360

@@ -14,9 +14,9 @@ from math import inf, tau
 
 import numpy as np
 
+from evidence.checks.collocation import IPOPT, LONGEST, QUADRATURE, AirVelocity, interval_ends, velocity
+from evidence.checks.oracle import Planar
 from kernel.slots import planned, random_scenes
-from loiter.evidence.checks.collocation import IPOPT, LONGEST, QUADRATURE, AirVelocity, interval_ends, velocity
-from loiter.evidence.checks.oracle import Planar
 from loiter.kernel.wind.wind_search import time_of
 from planning.prescribed_times import complex_ends, gap_of, random_arrival
 

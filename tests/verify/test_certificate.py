@@ -14,10 +14,10 @@ from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 import loiter
+from evidence.checks.oracle_check import random_problems as hard_problems
 from golden.paper import EXAMPLES
 from loiter import Aircraft, Orbit, Pose, Turn, candidates, plan, plan_all
 from loiter.errors import InvalidArgument
-from loiter.evidence.checks.oracle_check import random_problems as hard_problems
 from loiter.planning.problem import problem_of
 from loiter.verify import Certificate, certify, gradient
 from loiter.verify.accuracy import accuracy_of
@@ -338,7 +338,7 @@ def test_a_certificate_is_frozen_and_reads_as_a_table():
         certificate.lam = 0.0
     lines = str(certificate).splitlines()
     assert lines[0] == "Certificate of LRL, clockwise: valid."
-    assert lines[1] == "Optimal, up to rounding, by theorem 1 of docs/proof.md."
+    assert lines[1] == "Optimal, up to rounding, by theorem 1 of evidence/docs/proof.md."
     assert lines[2].startswith(
         "In doubles: it ends within 1.3e-12 m of the point of joining, and takes at most 6.5e-13 s"
     )
@@ -346,7 +346,7 @@ def test_a_certificate_is_frozen_and_reads_as_a_table():
     assert sum(line.endswith("holds") for line in lines) == len(certificate.residuals)
     assert "The adjoint psi is unique: the condition phi = 0 at a switch determines it." in lines
     assert lines[-2] == (
-        "Numbers in parentheses: equations of the paper, listed in docs/paper.md; lengths in turn radii. "
+        "Numbers in parentheses: equations of the paper, listed in evidence/docs/paper.md; lengths in turn radii. "
         "docs/certificate.md explains each row."
     )
     assert lines[-1] == (
@@ -356,7 +356,9 @@ def test_a_certificate_is_frozen_and_reads_as_a_table():
 
 
 def test_every_equation_of_a_certificate_is_in_the_document_that_it_names():
-    listed = set(re.findall(r"^\| \((\d+)\) \|", Path("docs/paper.md").read_text(encoding="utf-8"), re.MULTILINE))
+    listed = set(
+        re.findall(r"^\| \((\d+)\) \|", Path("evidence/docs/paper.md").read_text(encoding="utf-8"), re.MULTILINE)
+    )
     certificate = loiter.verify.certify(plan(*unit_scene(-0.53, 0.31)))
     named = {number for r in certificate.residuals for number in re.findall(r"\((\d+)\)", r.equation)}
     assert named
@@ -419,9 +421,9 @@ def test_an_impossible_maneuver_is_refused_in_a_sentence(change, problem):
 def test_an_optimum_is_claimed_in_still_air_without_a_tolerance(scene, tolerance, proved):
     certificate = certified(certify(plan(*scene, tolerance_m=tolerance), tolerance_m=tolerance))
     assert (certificate.proved_optimal, certificate.to_dict()["proved_optimal"]) == (proved, proved)
-    basis = "docs/proof.md, theorem 1, up to rounding" if proved else "necessary conditions only"
+    basis = "evidence/docs/proof.md, theorem 1, up to rounding" if proved else "necessary conditions only"
     assert (certificate.basis, certificate.to_dict()["basis"]) == (basis, basis)
-    assert ("Optimal, up to rounding, by theorem 1 of docs/proof.md." in str(certificate)) == proved
+    assert ("Optimal, up to rounding, by theorem 1 of evidence/docs/proof.md." in str(certificate)) == proved
     assert ("Not proved to be optimal: these conditions are necessary ones" in str(certificate)) == (not proved)
 
 

@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given, settings
 
 import loiter
+from evidence.checks.wind_scan_check import random_problems
 from loiter import Aircraft, Orbit, Pose, Wind, candidates, hold, plan, plan_all
 from loiter.errors import InvalidArgument
-from loiter.evidence.checks.wind_scan_check import random_problems
 from loiter.kernel.entry import Entry
 from loiter.kernel.wind import wind_search
 from loiter.kernel.wind.paths import first_path

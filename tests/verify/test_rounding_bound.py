@@ -1,4 +1,4 @@
-"""What certificates quote of theorems 5 and 6 of docs/bridging.md, beside 154 digits, and where they quote nothing."""
+"""What certificates quote of theorems 5 and 6 of bridging.md, beside 154 digits, and where they quote nothing."""
 
 from math import nextafter, sqrt
 from random import Random
@@ -7,8 +7,8 @@ import pytest
 
 pytest.importorskip("flint")
 
-from evidence import bridging
-from evidence.bridging import Answer, Case
+from evidence.campaigns import bridging
+from evidence.campaigns.bridging import Answer, Case
 from loiter import Aircraft, Orbit, Pose, Wind, candidates, plan
 from loiter.kernel.words import Word
 from loiter.planning.model import SIDES

@@ -7,9 +7,9 @@ import sys
 from pathlib import Path
 
 import numpy as np
-from benchmarks.browsing import NODE, SCRIPT, browsing, served, settle  # noqa: F401 (tests find them here)
 
 import loiter
+from benchmarks.browsing import NODE, SCRIPT, browsing, served, settle  # noqa: F401 (tests find them here)
 from loiter.web.app import STATIC
 
 # Chords of the tracks are off by less than this many turn radii (the service's promise); a path is drawn to a hundredth

@@ -14,7 +14,6 @@ from math import cos, hypot, isclose, sin, tau
 from pathlib import Path
 
 from benchmarks.browsing import NODE
-
 from loiter.errors import LoiterError, RadiusTooSmall
 from loiter.fences import CircleZone, Fence, PolygonZone
 from loiter.planning.solve import all_fastest

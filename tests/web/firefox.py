@@ -13,10 +13,9 @@ from functools import partial
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 
+import loiter
 from benchmarks.browsing import NODE
 from codegen.site import build
-
-import loiter
 
 NODE_FOLDER = Path(sys.prefix) / "node"
 BUILD = Path(__file__).parents[2] / "build"

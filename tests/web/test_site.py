@@ -6,8 +6,8 @@ from functools import partial
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 
 import pytest
-from codegen.site import build
 
+from codegen.site import build
 from web.browsing import DESK, PHONE, assert_shows_the_plan, grave, located, press, settle
 
 WINDY = "#pose=-400,120,90&orbit=0,0,120&turn=either&airspeed=18&bank=35&wind=8,250"

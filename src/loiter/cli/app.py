@@ -38,7 +38,7 @@ app = App(
     help_format="plaintext",
     help="""The fastest way onto a holding circle for a fixed-wing aircraft.
 
-An aircraft of constant speed turns left or right, no tighter than its minimum turn radius. The plan joins a circle tangentially in the least time and stays on it, clockwise or counter-clockwise, whichever is sooner. In still air the answer is the fastest extremal of Pontryagin's maximum principle, in closed form: proved to be the optimum (docs/proof.md). In wind, and onto a circle that moves, a search (branch and bound over the point of joining) finds the answer.
+An aircraft of constant speed turns left or right, no tighter than its minimum turn radius. The plan joins a circle tangentially in the least time and stays on it, clockwise or counter-clockwise, whichever is sooner. In still air the answer is the fastest extremal of Pontryagin's maximum principle, in closed form: proved to be the optimum (evidence/docs/proof.md). In wind, and onto a circle that moves, a search (branch and bound over the point of joining) finds the answer.
 
 Positions are metres east and north of a local origin of your choice, or WGS84 degrees; headings are degrees clockwise from north. Speeds are in metres per second and lengths in metres, or have a unit: 35kn, 65km/h, 40mph, 3000ft, 2NM. Directions are true, 90 or 90T; magnetic ones, 87M, need --declination. A wind is its speed and the direction that it comes from, 15kn 250, or as in weather reports 250/15kn or 25015KT. Latitudes come before longitudes; with their letters, 47.1N, N47.1, 47°06'N, 47:06:00N or N47 06.0, they cannot be confused. Commas may separate the numbers of an option.
 
@@ -96,8 +96,6 @@ Before the first command a summary shows what is taken over and what happens if 
         {
             "synthesis:synthesis": "Map the optimal synthesis of the reduced plane: the fastest word in each region, and the curves between the regions.",
             "figures:figures": "Draw the seven figures of the paper, and write their captions.",
-            "verify:verify": "Compare plans with independent methods: search, 50 digits, collocation, reachability, and a search in wind.",
-            "prove:prove": "Check the lemmas of docs/proof.md on the kernel's own formulas, for all states and radii, in exact algebra and ball arithmetic. What docs/proof.md argues in words or cites is not checked.",
         },
     ),
 )
@@ -132,10 +130,10 @@ def completion(shell: Literal["bash", "zsh", "fish"], /) -> None:
     sys.stdout.write(app.generate_completion(shell=shell))
 
 
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command line and return the exit status; an error prints one sentence to standard error."""
+def main(arguments: Sequence[str] | None = None, program: App = app) -> int:
+    """Run a command line and return the exit status; an error prints one sentence to standard error."""
     try:
-        status = app(
+        status = program(
             prepare(sys.argv[1:] if arguments is None else arguments),
             exit_on_error=False,
             print_error=False,

@@ -70,11 +70,6 @@ EXAMPLES = {
   loiter synthesis --radius 2 --turn cw --show worth --save map.npz""",
     "figures": r"""
   loiter figures --out figures --format svg""",
-    "verify": r"""
-  loiter verify --states 1000
-  loiter verify --witness wind --states 20""",
-    "prove": r"""
-  loiter prove""",
     "serve": r"""
   loiter serve
   loiter serve --port 8080 --cors http://localhost:8000""",
@@ -90,7 +85,7 @@ PROGRAM_ONLY = ("",)
 # shows the first text of each.
 STATUSES: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("  0  done", ()),
-    ("  1  a check failed: loiter verify, loiter prove, loiter plan --certify or --fence", ("plan", "verify", "prove")),
+    ("  1  a check failed: loiter plan --certify or --fence", ("plan",)),
     (
         """  2  the request cannot be met: one sentence on standard error says why,
      and no file is left half written""",

@@ -30,7 +30,7 @@ def plan(
 
     In still air (`wind` is None, or equals the velocity of the circle) the answer is the fastest of the extremals of
     the maximum principle that docs/theory.md, section 3, lists, in closed form: proved to be the optimum in
-    docs/proof.md. In wind, and onto a moving circle, the path is tangential
+    evidence/docs/proof.md. In wind, and onto a moving circle, the path is tangential
     in the frame of the circle, and is found by branch and bound over the point of joining (docs/wind.md). Where several
     maneuvers are optimal, one of them is returned; `plan_all` returns all.
 

@@ -2,9 +2,10 @@
 
 It shows that the maneuver is an extremal, gives lambda and psi for checking this, and shows that no candidate is
 faster; the Hamilton-Jacobi-Bellman equation compares it with the least times of neighbouring starts. In still air a
-fastest maneuver is always among the candidates (docs/proof.md, theorem 1), so a valid certificate without a tolerance
-shows that the maneuver is optimal, up to rounding: `Certificate.proved_optimal`; `Certificate.rounding` says how much
-that can be. Distances, curvatures and start times of segments are not checked: letters, durations and the join are.
+fastest maneuver is always among the candidates (evidence/docs/proof.md, theorem 1), so a valid certificate without a
+tolerance shows that the maneuver is optimal, up to rounding: `Certificate.proved_optimal`; `Certificate.rounding` says
+how much that can be. Distances, curvatures and start times of segments are not checked: letters, durations and the join
+are.
 """
 
 from __future__ import annotations
@@ -36,10 +37,10 @@ ARC_BY_ROUNDING = "a single arc (the other is there by rounding alone)"
 STRAIGHT_ENTRY = "that of a straight entry that ends in it, (1, 0) on the axis"
 SWITCH_AT_START = "that of a switch at its start, parallel to the state there"
 UNIQUE_IN_WIND = "the adjoint is unique: the pieces and the condition at the circle determine it"
-BASIS_THEOREM = "docs/proof.md, theorem 1, up to rounding"
+BASIS_THEOREM = "evidence/docs/proof.md, theorem 1, up to rounding"
 BASIS_NECESSARY = "necessary conditions only"
 BASIS_VIOLATED = "a condition is violated"
-BY_THE_THEOREM = "Optimal, up to rounding, by theorem 1 of docs/proof.md."
+BY_THE_THEOREM = "Optimal, up to rounding, by theorem 1 of evidence/docs/proof.md."
 NOT_PROVED = "Not proved to be optimal: these conditions are necessary ones, and no extremal that was found is faster."
 ARC_IN_WIND = "a single arc has many adjoints: this is the one that violates the conditions least"
 
@@ -88,7 +89,7 @@ class Certificate:
 
     @property
     def proved_optimal(self) -> bool:
-        """Whether the maneuver is proved to be optimal, up to `rounding`, by theorem 1 of docs/proof.md."""
+        """Whether the maneuver is proved to be optimal, up to `rounding`, by theorem 1 of evidence/docs/proof.md."""
         return self.complete and self.valid
 
     @property
@@ -111,7 +112,9 @@ class Certificate:
     @property
     def source(self) -> str:
         """Where the equations in parentheses are."""
-        return "of the paper, listed in docs/paper.md" if problem_of(self.maneuver).still else "in docs/wind.md"
+        return (
+            "of the paper, listed in evidence/docs/paper.md" if problem_of(self.maneuver).still else "in docs/wind.md"
+        )
 
     @property
     def comparison(self) -> str:

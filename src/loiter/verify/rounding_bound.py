@@ -1,4 +1,4 @@
-"""By how much a plan in doubles may differ from the exact optimum: theorems 5 and 6 of docs/bridging.md."""
+"""By how much a plan in doubles may differ from the exact optimum: theorems 5 and 6 of evidence/docs/bridging.md."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from loiter.planning.model import SIDES
 from loiter.planning.problem import Problem
 from loiter.planning.solve import fastest
 
-BY_THEOREMS = "docs/bridging.md, theorems 5 and 6, for the reduced state"
+BY_THEOREMS = "evidence/docs/bridging.md, theorems 5 and 6, for the reduced state"
 NOT_CLAIMED = "the maneuver is not proved to be optimal"
 NOT_PLANNED = "not proved: another maneuver, as fast up to rounding, is the plan"
 

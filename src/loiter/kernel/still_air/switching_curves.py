@@ -42,7 +42,7 @@ def last_arc_abscissa(y: float) -> float:
 
 
 def region(x: float, y: float) -> Word:
-    """The word that wins at R = 1, *either*, y >= 0: the paper's section 6, corrected (docs/paper.md).
+    """The word that wins at R = 1, *either*, y >= 0: the paper's section 6, corrected (evidence/docs/paper.md).
 
     The letters are those of the clockwise circle; for y < 0 take the mirror image. Pieces of zero length are left out:
     the word is SL on the axis, L on the arc (27) and empty at the target.

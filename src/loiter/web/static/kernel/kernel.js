@@ -4,7 +4,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: ece1696e5f40f734e69f9de2a451faffb80708d87375c0df57bac21dc5bec49a
+ * SHA-256 of the source: 05c319f8081020004cd43831b44a33583b79f6181225ee4223c70e1645124f38
  */
 
 // What Python has and JavaScript has not: the first of two that tie, and quotients rounded down. Integers are doubles
@@ -1863,7 +1863,7 @@ export function switching_abscissa(y, R) {
 }
 
 /**
- * The word that wins at R = 1, *either*, y >= 0: the paper's section 6, corrected (docs/paper.md).
+ * The word that wins at R = 1, *either*, y >= 0: the paper's section 6, corrected (evidence/docs/paper.md).
  *
  * The letters are those of the clockwise circle; for y < 0 take the mirror image. Pieces of zero length are left
  * out: the word is SL on the axis, L on the arc (27) and empty at the target.
