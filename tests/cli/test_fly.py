@@ -128,7 +128,6 @@ def test_six_degrees_of_freedom(shown):
         (f"--runs 3 {SCENE}", "--runs selects random starts and circles"),
         (f"--runs 3 {UAV} --plot f.png", "--plot draws one flight"),
         (f"{SCENE} --plot f.doc", "--plot is 'f.doc'"),
-        (f"{SCENE} --plot f.png --size 85 70", "--size HEIGHT is 70: a flight has three panels, and needs 110 millim"),
         (f"{SCENE} --save f.txt", "--save is 'f.txt': the file name must end in .csv"),
         (f"{SCENE} --save no/f.csv", "--save is 'no/f.csv': it cannot be written"),
         (f"{SCENE} --plot no/f.png", "--plot is 'no/f.png': it cannot be written"),

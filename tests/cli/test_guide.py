@@ -268,7 +268,7 @@ def test_a_replay_shows_the_median_of_the_commanded_banks(tmp_path, capsys):
     [
         (
             "--pose 0 0 0",
-            "--replay shows a flight that was flown: it takes no options but --plot, --size, --dpi and --json",
+            "--replay shows a flight that was flown: it takes no options but --plot and --json",
         ),
         ("--runs 3", "it takes no options but --plot"),
         ("--save x.csv", "it takes no options but --plot"),

@@ -1,7 +1,5 @@
 """The picture of flights: what is drawn is what was flown."""
 
-from itertools import pairwise
-
 import numpy as np
 import pytest
 
@@ -10,7 +8,6 @@ from loiter.guidance.trials import settings
 from loiter.guidance.trials.campaign import Trial
 from loiter.guidance.trials.flight import fly
 from loiter.plot.flown import draw
-from loiter.plot.sizes import resize
 
 TRIAL = Trial(plan(Pose(-300.0, 120.0, 90.0), Orbit(0.0, 0.0, 80.0), Aircraft(18.0, max_bank_deg=35.0)), 1)
 
@@ -134,21 +131,3 @@ def test_a_right_turn_has_positive_bank(flights):
     right = np.argmax(track.bank_deg)
     assert track.bank_deg[right] > 20.0
     assert np.diff(np.unwrap(track.heading_deg, period=360.0))[right - 1] > 0.0
-
-
-def test_a_small_figure_is_legible(flights):
-    """At the width of a column no text is cut or covers another, and the legend covers no track."""
-    simulator = "simulator point, gusts 0.05 of the airspeed, with a title that is longer than the figure is wide"
-    figure = draw(TRIAL.ideal, flights, conditions=simulator)
-    resize(figure, 85.0, 110.0)
-    figure.draw_without_rendering()
-    tracks, bank, join = figure.axes
-    title = tracks.title.get_window_extent()
-    assert 0.0 < title.x0 < title.x1 < figure.bbox.width
-    assert "".join(tracks.get_title().split()).endswith("".join(simulator.split()))
-    labels = [panel.yaxis.label.get_window_extent() for panel in (tracks, bank, join)]
-    assert not any(above.overlaps(below) for above, below in pairwise(labels))
-    [legend] = figure.legends
-    box = legend.get_window_extent()
-    assert not any(box.overlaps(panel.bbox) for panel in figure.axes)
-    assert 0.0 < box.x0 < box.x1 < figure.bbox.width

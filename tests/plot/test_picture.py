@@ -14,7 +14,6 @@ from matplotlib.text import Annotation
 from loiter import Aircraft, Orbit, Pose, Wind, candidates, plan, plan_all
 from loiter.geo import LocalFrame
 from loiter.plot.picture import draw
-from loiter.plot.sizes import resize
 from planning.flying import fly
 
 UAV, UNIT = Aircraft(18.0, max_bank_deg=35.0), Aircraft(1.0, min_turn_radius_m=1.0)
@@ -209,7 +208,7 @@ def test_in_a_narrow_picture_a_last_turn_shorter_than_three_marks_has_no_arrow(m
     [axes] = figure.axes
     figure.draw_without_rendering()
     assert "arrow L" in shown_arrows(axes)
-    resize(figure, 84.0, 60.0)
+    figure.set_size_inches(3.3, 2.4)
     figure.draw_without_rendering()
     assert shown_arrows(axes) == ["arrow S"]
     drawn_gids = []
@@ -286,16 +285,10 @@ def test_arrows_on_the_circle_point_the_way_it_is_held(scene, everything):
     assert set(senses) == {maneuver.turn.value for maneuver in best}
 
 
-WIDE, LOW = (203.0, 163.0), (174.0, 60.0)
-
-
-@pytest.mark.parametrize(
-    ("scene", "size_mm"), [*((scene, (84.0, 70.0)) for scene in SCENES.values()), (FAR, WIDE), (LRL, LOW)]
-)
-def test_the_scale_bar_is_as_long_as_it_says_and_hides_nothing(scene, size_mm):
+@each_scene
+def test_the_scale_bar_is_as_long_as_it_says_and_hides_nothing(scene):
     axes, _, _ = fresh(scene)
     figure = axes.figure
-    resize(figure, *size_mm)
     figure.draw_without_rendering()
     [bar] = artists(axes, "scale")
     number, unit = bar.label.get_text().split()
@@ -311,13 +304,11 @@ def test_the_scale_bar_is_as_long_as_it_says_and_hides_nothing(scene, size_mm):
     assert not any(box.overlaps(tick) for tick in ticks)
 
 
-@pytest.mark.parametrize("size_mm", [(84.0, 84.0), LOW])
 @pytest.mark.parametrize("scene", [FAR, ON_CIRCLE], ids=["two lines", "one line"])
-def test_the_north_arrow_points_north_and_is_whole(scene, size_mm):
+def test_the_north_arrow_points_north_and_is_whole(scene):
     """Also where the title, which gives the arrow its room, has one line only."""
     axes, _, _ = fresh(scene)
     figure = axes.figure
-    resize(figure, *size_mm)
     figure.draw_without_rendering()
     [north] = artists(axes, "north")
     assert north.get_text() == "N"
@@ -459,14 +450,10 @@ def test_a_short_entry_has_one_panel(scene):
     assert axes.figure.axes == [axes]
 
 
-@pytest.mark.parametrize(
-    ("scene", "size_mm"),
-    [*((scene, (84.0, 84.0)) for scene in LONG.values()), (LONG["100 radii"], LOW), (LONG["in wind"], WIDE)],
-)
-def test_a_second_panel_enlarges_the_last_turn_of_a_long_entry(scene, size_mm):
+@each_long_scene
+def test_a_second_panel_enlarges_the_last_turn_of_a_long_entry(scene):
     axes, [best], _ = fresh(scene)
     figure = axes.figure
-    resize(figure, *size_mm)
     figure.draw_without_rendering()
     _, detail = figure.axes
     *_, last = best.segments

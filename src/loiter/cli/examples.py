@@ -20,7 +20,7 @@ EXAMPLES = {
       --altitude 100 --to-altitude 300 --climb-rate 2.5""",
     "fleet": r"""
   loiter fleet fleet.csv --orbit 0 0 120 --airspeed 18 --bank 35 \
-      --separation 100 --plot fleet.png --animate fleet.gif
+      --separation 100 --plot fleet.png
   loiter fleet fleet.csv --orbit-lla 47.11 8.23 120 --airspeed 18 \
       --bank 35 --wind 8 250 --altitude 900 --save fleet.kml""",
     "land": r"""
@@ -66,7 +66,7 @@ EXAMPLES = {
   loiter fly --replay flight.csv --plot flight.png""",
     "synthesis": r"""
   loiter synthesis --radius 1.5 --turn cw --plot map.png
-  loiter synthesis --plot map.pdf --size 84 90 --dpi 600
+  loiter synthesis --plot map.pdf
   loiter synthesis --radius 2 --turn cw --show worth --save map.npz""",
     "figures": r"""
   loiter figures --out figures --format svg""",

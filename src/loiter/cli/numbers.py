@@ -14,9 +14,6 @@ from loiter.planning.compass import wrapped
 from loiter.planning.model import TurnName
 from loiter.planning.units import ANGLES, LENGTHS, SPEEDS, TURN_RATES, parse_number
 
-# In millimetres, for pictures.
-LENGTHS_ON_PAPER = {"mm": 1.0, "cm": 10.0, "in": 25.4}
-
 NEEDS_METRES = "it must be a number of metres, or end in m, km, ft or NM"
 
 # Metres between two flight levels, which are 100 ft apart.
@@ -153,12 +150,6 @@ def metres_per_second(token: Token) -> float:
     """A speed in metres per second, from metres per second or with a unit: 35kn."""
     need = "it must be a number of metres per second, or end in m/s, km/h, kn or mph"
     return _with_unit(token, typed(token), SPEEDS, need)
-
-
-def millimetres(token: Token) -> float:
-    """A length on paper in millimetres, from millimetres or with a unit: 3.5in."""
-    need = "it must be a number of millimetres, or end in mm, cm or in"
-    return _with_unit(token, typed(token), LENGTHS_ON_PAPER, need)
 
 
 def latitude(token: Token) -> float:

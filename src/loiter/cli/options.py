@@ -19,7 +19,6 @@ from loiter.cli.numbers import (
     longitude,
     metres,
     metres_per_second,
-    millimetres,
     one,
     several,
     true_direction,
@@ -35,7 +34,6 @@ from loiter.io.missions.altitudes import MEAN_SEA_LEVEL, AltitudeDatum, Altitude
 from loiter.io.missions.items import AutopilotName
 from loiter.planning.model import CALM, Aircraft, Orbit, Turn, TurnName, Wind, circle_radius_m
 from loiter.plot import files
-from loiter.plot.sizes import PictureFormat
 
 if TYPE_CHECKING:
     from loiter.io.missions.parameters import Preset
@@ -459,53 +457,16 @@ class MissionOptions:
 @Parameter(name="*", group=output)
 @dataclass(frozen=True)
 class PictureOptions:
-    """The pictures of a command: their files, their size and their resolution."""
+    """The pictures of a command."""
 
     plot: Files = ()
     """Draw a picture to a file: .png, .svg or .pdf; may be repeated."""
-    size: Annotated[
-        tuple[float, float] | None, Parameter(converter=several(millimetres, millimetres), metavar="WIDTH HEIGHT")
-    ] = None
-    """Size of the picture, millimetres, or with a unit: 3.5in. A column of a journal is some 84 wide, a page 174; text stays at 7 points or more."""
-    dpi: Annotated[float | None, Parameter(metavar="N")] = None
-    """Dots per inch of a .png; 150 if absent. Journals ask for 300 to 1200."""
-
-    @property
-    def format(self) -> PictureFormat:
-        """The size and the resolution; raises `InvalidArgument` where they cannot be used."""
-        return PictureFormat(self.size, self.dpi)
 
     def check(self) -> None:
-        """Raise `InvalidArgument` for a format, a size or a resolution that cannot be used, or has no effect."""
-        PictureFormat(self.size, self.dpi)
+        """Raise `InvalidArgument` for a format that is not known."""
         with argument_names(path="plot"):
             for path in self.plot:
                 files.check_format(path)
-        for argument, value in {"size_mm": self.size, "dpi": self.dpi}.items():
-            if value is not None and not self.plot:
-                raise InvalidArgument(argument, "has no effect without --plot: there is no picture")
-        # The regions of a map are pixels also in .svg and .pdf.
-        if self.dpi is not None and not self.has_pixels and all(path.suffix.lower() != ".png" for path in self.plot):
-            raise InvalidArgument("dpi", "has no effect: only a .png has pixels, .svg and .pdf have lines")
-
-    @property
-    def has_pixels(self) -> bool:
-        """Whether the picture has pixels in every format."""
-        return False
-
-
-@Parameter(name="*", group=output)
-@dataclass(frozen=True)
-class MapPictureOptions(PictureOptions):
-    """The pictures of a map, whose regions are pixels in every format."""
-
-    dpi: Annotated[float | None, Parameter(metavar="N")] = None
-    """Dots per inch of a .png, and of the regions in .svg and .pdf; 150 if absent."""
-
-    @property
-    def has_pixels(self) -> bool:
-        """Whether the picture has pixels in every format."""
-        return True
 
 
 def _with_radius(argument: str, numbers: Sequence[float], radius_m: float | None) -> tuple[float, float, float]:

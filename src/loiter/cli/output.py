@@ -37,7 +37,7 @@ class Output(NamedTuple):
     def draw(self, figure: Any, paths: Iterable[Path] | None = None) -> None:
         """Write a figure of matplotlib to the files of --plot, or to others beside them."""
         with argument_names(path="plot"):
-            files.save_pictures(self.pictures.plot if paths is None else paths, figure, self.pictures.format)
+            files.save_pictures(self.pictures.plot if paths is None else paths, figure)
 
     def show(self, document: dict[str, object], *lines: RenderableType, beside: Sequence[Path] = ()) -> None:
         """Print the document or the lines, and the files that were written: `beside` are those without an option."""

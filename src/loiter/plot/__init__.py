@@ -26,8 +26,6 @@ def draw(
     frame: LocalFrame | None = None,
     fence: fences.Fence | None = None,
     breaches: Sequence[fences.Breach] = (),
-    size_mm: tuple[float, float] | None = None,
-    dpi: float | None = None,
 ) -> figures.Figure:
     """A matplotlib figure of a maneuver, or of several from one start, seen from above, in metres.
 
@@ -35,11 +33,8 @@ def draw(
     `others`, such as the remaining ones of `loiter.candidates`, the soonest in each direction is a grey band below; the
     rest is not drawn: it would hide the path. If the turns are too small to see, a second panel enlarges the last one.
     With a frame the axes name its origin on Earth. Of a `fence` the zones to stay out of are hatched, those to stay in
-    are dashed, and crosses mark its `breaches`, from `Fence.check`. `size_mm` is the width and height of the figure, by
-    default 203 mm by 163 mm, or by 107 mm for a wide scene with a second panel; in narrow figures text shrinks to 7
-    points at the least. `dpi` are the dots per inch in which `Figure.savefig` writes a PNG. Raises `InvalidArgument`
-    for something that is no maneuver, and for none; for sizes below 80 mm by 60 mm or above 1189 mm, for resolutions
-    that are not from 30 to 1200, and for more than 200 million pixels.
+    are dashed, and crosses mark its `breaches`, from `Fence.check`. For a paper set the figure's own size
+    (`set_size_inches`) and matplotlib's styles. Raises `InvalidArgument` for something that is no maneuver, and for none.
 
     >>> from loiter import Aircraft, Orbit, Pose, plan
     >>> m = plan(Pose(-400.0, 120.0, 90.0), Orbit(0.0, 0.0, 80.0), Aircraft(18.0, max_bank_deg=35.0))
@@ -48,9 +43,7 @@ def draw(
     """
     from loiter.errors import InvalidArgument, instance
     from loiter.plot import picture
-    from loiter.plot.sizes import PictureFormat
 
-    chosen = PictureFormat(size_mm, dpi)
     maneuvers, slower = (list(given) if isinstance(given, Iterable) else [given] for given in (best, others))
     for maneuver in (*maneuvers, *slower):
         instance("maneuver", maneuver, Maneuver)
@@ -60,6 +53,4 @@ def draw(
         instance("fence", fence, fences.Fence)
     if not maneuvers:
         raise InvalidArgument("maneuver", "is missing: there is none to draw")
-    figure = picture.draw(maneuvers, slower, frame=frame, fence=fence, breaches=breaches)
-    chosen.apply(figure)
-    return figure
+    return picture.draw(maneuvers, slower, frame=frame, fence=fence, breaches=breaches)

@@ -8,7 +8,6 @@ from typing import IO, TYPE_CHECKING, Any
 
 from loiter.geo import LocalFrame
 from loiter.planning.maneuver import Maneuver
-from loiter.plot.sizes import DPI, PictureFormat
 from loiter.writing import Format, file_format, write_whole
 
 if TYPE_CHECKING:
@@ -20,6 +19,9 @@ PICTURE_FORMATS = (
     Format((".pdf",), "picture", "", "PDF", "picture"),
 )
 FORMATS = tuple(ending for known in PICTURE_FORMATS for ending in known.endings)
+
+# Dots per inch of a .png.
+DPI = 150.0
 
 # Journals refuse matplotlib's default, Type 3 fonts; text in SVG stays text, which can be searched and edited. The salt
 # makes the identifiers in an SVG the same each time.
@@ -40,38 +42,33 @@ def save(
     others: Sequence[Maneuver] = (),
     *,
     frame: LocalFrame | None = None,
-    size_mm: tuple[float, float] | None = None,
-    dpi: float | None = None,
 ) -> None:
     """Write the picture of `plot.draw` to `path`, in the format of its ending: .png, .svg or .pdf.
 
-    `size_mm` is its width and height, `dpi` the resolution of a .png, 150 if absent. The file is replaced atomically.
-    Raises `InvalidArgument` for another ending, for a size or a resolution that `plot.draw` refuses, and for a file
-    that cannot be written.
+    The file is replaced atomically. Raises `InvalidArgument` for another ending, and for a file that cannot be written.
     """
-    path, chosen = Path(path), PictureFormat(size_mm, dpi)
+    path = Path(path)
     check_format(path)
     from loiter.plot.picture import draw
 
-    save_pictures([path], draw(best, others, frame=frame), chosen)
+    save_pictures([path], draw(best, others, frame=frame))
 
 
-def save_pictures(paths: Iterable[Path], figure: Figure, chosen: PictureFormat) -> None:
-    """Write a figure, in the chosen size and resolution, to files."""
-    chosen.apply(figure)
+def save_pictures(paths: Iterable[Path], figure: Figure) -> None:
+    """Write a figure to files, each in the format of its ending."""
     for path in paths:
-        save_figure(path, figure, chosen.resolution)
+        save_figure(path, figure)
 
 
-def save_figure(path: Path, figure: Figure, dpi: float = DPI) -> None:
+def save_figure(path: Path, figure: Figure) -> None:
     """Write a figure in the format of the ending of `path`."""
     ending = path.suffix.removeprefix(".").lower()
-    write_whole("path", path, lambda file: write_figure(file, figure, ending, dpi))
+    write_whole("path", path, lambda file: write_figure(file, figure, ending))
 
 
-def write_figure(file: IO[bytes], figure: Figure, ending: str, dpi: float = DPI) -> None:
+def write_figure(file: IO[bytes], figure: Figure, ending: str) -> None:
     """Write a figure to an open file, as "png", "svg" or "pdf"; PDF embeds TrueType fonts, SVG keeps text as text."""
     import matplotlib as mpl
 
     with mpl.rc_context(SETTINGS):
-        figure.savefig(file, format=ending, dpi=dpi, metadata=METADATA.get(ending))
+        figure.savefig(file, format=ending, dpi=DPI, metadata=METADATA.get(ending))

@@ -3,19 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from io import BytesIO
-from math import ceil
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
-from PIL import Image
 
 from loiter.geo import LocalFrame
-from loiter.planning.fleet import FleetPlan, fleet_period_s, fleet_tracks, slot_tracks
+from loiter.planning.fleet import FleetPlan, slot_tracks
 from loiter.plot.picture import (
     FAINT,
     MARK,
@@ -32,13 +27,7 @@ from loiter.plot.picture import (
 )
 
 SLOT: dict[str, Any] = MARK | {"marker": "D", "markersize": 9, "markerfacecolor": "white", "label": "slot"}
-FLOWN: dict[str, Any] = {"color": "#0072B2", "linewidth": 1.6}
-NOW: dict[str, Any] = MARK | {"marker": "o", "markersize": 7, "markerfacecolor": "#D55E00"}
 NAMES: dict[str, Any] = {"textcoords": "offset points", "xytext": (7.0, 7.0), "fontsize": "small", "zorder": 6}
-
-# An animation has at most this many frames of so many milliseconds, and goes on for this share of a turn after the last
-# aircraft is in its slot; its resolution is in dots per inch.
-MOST_FRAMES, FRAME_MS, AFTER, ANIMATION_DPI = 120, 100, 0.5, 80.0
 
 
 def draw(plan: FleetPlan, names: Sequence[str], *, frame: LocalFrame | None = None) -> Figure:
@@ -58,43 +47,6 @@ def draw(plan: FleetPlan, names: Sequence[str], *, frame: LocalFrame | None = No
         axes.annotate(name, (place.real, place.imag), gid="name of slot", **NAMES)
     draw_legend(figure, axes, SEGMENTS | MARKS | {"slot": SLOT})
     return figure
-
-
-def animation(plan: FleetPlan, names: Sequence[str], *, frame: LocalFrame | None = None) -> bytes:
-    """The flights of a fleet as a GIF that repeats: tracks, aircraft and slots, until all are on the circle."""
-    times_s = _frame_times(plan)
-    tracks, slots = fleet_tracks(plan, times_s), slot_tracks(plan, times_s)
-    figure, axes = _scene(plan, frame)
-    canvas: Any = FigureCanvasAgg(figure)
-    figure.set_dpi(ANIMATION_DPI)
-    everywhere = np.concatenate([tracks.ravel(), slots.ravel()])
-    axes.update_datalim(np.column_stack([everywhere.real, everywhere.imag]))
-    lines = [axes.plot([], [], **FLOWN)[0] for _ in names]
-    (places,), (aims,) = axes.plot([], [], zorder=5, **NOW), axes.plot([], [], zorder=4.5, **SLOT)
-    labels = [axes.annotate(name, (0.0, 0.0), **NAMES) for name in names]
-    axes.set_title("0 s")
-    # The layout of the first image is that of all: computing it takes longer than drawing.
-    canvas.draw()
-    figure.set_layout_engine("none")
-    images = []
-    for i, time_s in enumerate(times_s.tolist()):
-        for line, track, label in zip(lines, tracks, labels, strict=True):
-            line.set_data(track[: i + 1].real, track[: i + 1].imag)
-            label.xy = (track[i].real, track[i].imag)
-        places.set_data(tracks[:, i].real, tracks[:, i].imag)
-        aims.set_data(slots[:, i].real, slots[:, i].imag)
-        axes.set_title(f"{time_s:.1f} s")
-        canvas.draw()
-        images.append(Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB").quantize(64))
-    content = BytesIO()
-    first, *others = images
-    first.save(content, "GIF", save_all=True, append_images=others, duration=FRAME_MS, loop=0)
-    return content.getvalue()
-
-
-def _frame_times(plan: FleetPlan) -> NDArray[np.float64]:
-    last_s = plan.duration_s + AFTER * fleet_period_s(plan)
-    return np.linspace(0.0, last_s, min(MOST_FRAMES, ceil(last_s) + 1))
 
 
 def _scene(plan: FleetPlan, frame: LocalFrame | None) -> tuple[Figure, Axes]:

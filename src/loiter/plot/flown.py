@@ -30,7 +30,6 @@ from loiter.plot.picture import (
     enlarge,
     prepare_plan,
 )
-from loiter.plot.sizes import OUTSIDE_IF_NARROW
 
 # From the palette of Okabe and Ito.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7")
@@ -68,8 +67,7 @@ def draw(ideal: Maneuver, flights: Mapping[str, Flight], *, conditions: str = ""
         figure.suptitle(title, fontsize="medium")
         _draw_tracks(axes["circle"], ideal, flights)
         enlarge(axes["circle"], enlarged, axes["tracks"], "the circle, enlarged")
-    legend = axes["tracks"].legend(handles=_legend(figure, flights), loc="best", fontsize="small", framealpha=0.9)
-    legend.set_gid(OUTSIDE_IF_NARROW)
+    axes["tracks"].legend(handles=_legend(figure, flights), loc="best", fontsize="small", framealpha=0.9)
     _draw_bank(axes["bank"], flights)
     _draw_time_to_join(axes["join"], flights)
     axes["join"].sharex(axes["bank"])

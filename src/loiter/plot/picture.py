@@ -27,7 +27,6 @@ from loiter.planning.compass import heading_vector, wrapped
 from loiter.planning.flight import along
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Orbit, Pose, Segment, Turn, Wind
-from loiter.plot.sizes import OUTSIDE_IF_NARROW
 
 Floats = NDArray[np.float64]
 
@@ -394,8 +393,7 @@ def draw_legend(figure: Figure, axes: Axes, styles: Mapping[str, dict[str, Any]]
     """Draw a legend of the styles whose gid is drawn anywhere in the figure; the label is the gid unless it has one."""
     drawn = drawn_gids(figure)
     handles = [Line2D([], [], **{"label": gid} | style) for gid, style in styles.items() if gid in drawn]
-    legend = axes.legend(handles=handles, loc="best", fontsize="small", handlelength=2.6, framealpha=0.9)
-    legend.set_gid(OUTSIDE_IF_NARROW)
+    axes.legend(handles=handles, loc="best", fontsize="small", handlelength=2.6, framealpha=0.9)
 
 
 def draw_wind(axes: Axes, wind: Wind) -> None:

@@ -25,7 +25,6 @@ from loiter.cli.options import (
     PictureOptions,
     PlannedAircraftOptions,
     WindOptions,
-    output,
     scene,
 )
 from loiter.cli.output import Output
@@ -39,7 +38,7 @@ from loiter.planning.fleet import FleetPlan, slot_tracks
 from loiter.planning.fleet import fleet as plan_fleet
 from loiter.planning.maneuver import decimals_of
 from loiter.planning.model import Pose
-from loiter.writing import check_writable, write_content
+from loiter.writing import write_content
 
 if TYPE_CHECKING:
     from loiter.batch.fleets import FleetTable
@@ -74,10 +73,6 @@ Mapped = Annotated[
         group=scene,
         help="The column of the table that holds a quantity, if it has another name or unit: east_m='X_East [ft]'; may be repeated. Its unit is at the end of its name, or added in brackets.",
     ),
-]
-Animate = Annotated[
-    Path | None,
-    Parameter(group=output, metavar="FILE", help="Draw the flights of all aircraft to an animated .gif."),
 ]
 SAVED = [str(known) for known in FILE_FORMATS if known.kind != "table"]
 Save = Annotated[
@@ -114,7 +109,6 @@ def fleet(
     spacing: SpacingOptions = SpacingOptions(),
     json: Json = False,
     pictures: PictureOptions = PictureOptions(),
-    animate: Animate = None,
     save: Save = (),
     waypoints: FleetMissionOptions = FleetMissionOptions(),
     autopilot: AutopilotChoice = "ardupilot",
@@ -125,10 +119,6 @@ def fleet(
     read = read_circle(circle, uav, air, fit=fit, datum=waypoints.datum(circle.site))
     wanted = Output(json, pictures, save)
     wanted.check(check_format)
-    if animate is not None:
-        if animate.suffix.lower() != ".gif":
-            raise InvalidArgument("animate", f"is {str(animate)!r}: the file name must end in .gif")
-        check_writable("animate", animate)
     if circle.site is not None and circle.site.fence is not None:
         raise InvalidArgument("orbit_from", "has a fence, which is not checked for fleets: give --orbit-lla")
     rows = read_fleet(table, column_mapping(map_ or []))
@@ -141,17 +131,14 @@ def fleet(
     contents = _contents(shown, save, read, uav, waypoints, autopilot, circle.site)
     for path, content in contents:
         write_content("save", path, content)
-    if pictures.plot or animate is not None:
-        from loiter.plot import fleet as drawn
+    if pictures.plot:
+        from loiter.plot.fleet import draw
 
-        if pictures.plot:
-            wanted.draw(drawn.draw(plan, shown.names, frame=read.frame))
-        if animate is not None:
-            write_content("animate", animate, drawn.animation(plan, shown.names, frame=read.frame))
+        wanted.draw(draw(plan, shown.names, frame=read.frame))
     lines = [*([read.remark] if read.remark else []), *shown.lines()]
     lines += [NO_SLOTS] if any(map(is_mission, save)) else []
     written = wanted._replace(save=[path for path, _ in contents])
-    written.show(shown.document(), *lines, beside=[animate] if animate else [])
+    written.show(shown.document(), *lines)
 
 
 class ShownFleet(NamedTuple):

@@ -37,7 +37,6 @@ from loiter.errors import InvalidArgument, clause
 from loiter.planning.model import Aircraft
 from loiter.planning.problem import Problem
 from loiter.planning.slot import Slot
-from loiter.plot.sizes import LEAST_FLIGHT_HEIGHT_MM
 from loiter.writing import check_writable
 
 if TYPE_CHECKING:
@@ -263,9 +262,7 @@ def fly(
 def _replay(log: Path, others: tuple[object, ...], wanted: Output) -> None:
     """Replay a log; `others` are the options that have no effect with it."""
     if wanted.save or any(option != type(option)() for option in others):
-        raise InvalidArgument(
-            "replay", "shows a flight that was flown: it takes no options but --plot, --size, --dpi and --json"
-        )
+        raise InvalidArgument("replay", "shows a flight that was flown: it takes no options but --plot and --json")
     _check_files(wanted, None)
     show_log(log, wanted)
 
@@ -273,12 +270,6 @@ def _replay(log: Path, others: tuple[object, ...], wanted: Output) -> None:
 def _check_files(wanted: Output, runs: int | None) -> None:
     """Raise `InvalidArgument` before anything flies if a file could not be written."""
     wanted.check(_check_table)
-    size_mm = wanted.pictures.size
-    if size_mm is not None and size_mm[1] < LEAST_FLIGHT_HEIGHT_MM:
-        raise InvalidArgument(
-            "size_mm height",
-            f"is {size_mm[1]:g}: a flight has three panels, and needs {LEAST_FLIGHT_HEIGHT_MM:g} millimetres",
-        )
     for path in wanted.pictures.plot:
         if runs is not None:
             raise InvalidArgument("plot", "draws one flight, not the many of --runs")

@@ -10,7 +10,7 @@ from rich.table import Table
 from loiter.arrays.partition import BOUNDARIES, Boundary, Partition, boundaries, partition
 from loiter.cli import report
 from loiter.cli.numbers import turn_name, whole
-from loiter.cli.options import Files, Json, MapPictureOptions
+from loiter.cli.options import Files, Json, PictureOptions
 from loiter.cli.output import Output
 from loiter.errors import InvalidArgument
 from loiter.planning.model import TurnName
@@ -37,7 +37,7 @@ def synthesis(
         ),
     ] = "words",
     json: Annotated[Json, Parameter(help="Print one JSON object: the map's settings, and its curves.")] = False,
-    pictures: MapPictureOptions = MapPictureOptions(),
+    pictures: PictureOptions = PictureOptions(),
     save: Annotated[Files, Parameter(help="Write the map and the curves as arrays: .npz; may be repeated.")] = (),
 ) -> None:
     """Map the optimal synthesis of the reduced plane: the fastest word in each region, and the curves between them."""
