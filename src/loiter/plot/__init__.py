@@ -34,7 +34,8 @@ def draw(
     rest is not drawn: it would hide the path. If the turns are too small to see, a second panel enlarges the last one.
     With a frame the axes name its origin on Earth. Of a `fence` the zones to stay out of are hatched, those to stay in
     are dashed, and crosses mark its `breaches`, from `Fence.check`. For a paper set the figure's own size
-    (`set_size_inches`) and matplotlib's styles. Raises `InvalidArgument` for something that is no maneuver, and for none.
+    (`set_size_inches`) and matplotlib's styles. Raises `InvalidArgument` for something that is no maneuver, and for
+    none.
 
     >>> from loiter import Aircraft, Orbit, Pose, plan
     >>> m = plan(Pose(-400.0, 120.0, 90.0), Orbit(0.0, 0.0, 80.0), Aircraft(18.0, max_bank_deg=35.0))
