@@ -437,7 +437,7 @@ class MissionOptions:
         """The reference of --altitude; the altitude of home may come from an existing mission."""
         home_m = self.home_altitude
         if home_m is None and site is not None and self.altitude_reference != "msl":
-            _, _, home_m = site.home
+            home_m = site.home_altitude_m
         return AltitudeDatum(AltitudeReference(self.altitude_reference), home_m)
 
     @property

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import partial
+from math import isnan
 from pathlib import Path
 from typing import NamedTuple
 
@@ -201,7 +202,15 @@ def _mission(ending: str, arguments: SaveArguments) -> Mission:
         along_path=arguments.along_path,
         autopilot=arguments.autopilot,
     )
-    return plan if arguments.site is None else plan._replace(home=arguments.site.home)
+    return plan if arguments.site is None else plan._replace(home=_kept_home(arguments.site, plan.home))
+
+
+def _kept_home(site: Site, planned: tuple[float, float, float]) -> tuple[float, float, float]:
+    """The home of an existing mission, with what is not known of it taken from the planned home."""
+    latitude_deg, longitude_deg, _ = site.home
+    if isnan(latitude_deg + longitude_deg):
+        return planned
+    return latitude_deg, longitude_deg, planned[2] if site.home_altitude_m is None else site.home_altitude_m
 
 
 # All formats that `save` writes. The command line, the service and the page know them from here.

@@ -251,9 +251,8 @@ def _mission_lines(written: SaveArguments) -> list[str]:
     """Lines on missions that were saved: their altitude, and the radius that is flown where it cannot be stored."""
     datum, altitude_m = written.datum, written.altitude_m
     assert altitude_m is not None  # missions have one
-    lines = report.altitude_lines(
-        altitude_m, datum, home_known=written.site is not None or datum.home_altitude_m is not None
-    )
+    known = {datum.home_altitude_m, None if written.site is None else written.site.home_altitude_m} - {None}
+    lines = report.altitude_lines(altitude_m, datum, home_known=bool(known))
     if written.autopilot == Autopilot.ARDUPILOT:
         above_sea = None if datum.reference == AltitudeReference.GROUND else datum.above_sea_m(altitude_m)
         lines += filter(None, [stored_radius_remark(written.maneuver.orbit.radius_m, above_sea)])

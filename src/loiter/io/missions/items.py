@@ -15,6 +15,11 @@ class Frame(IntEnum):
     ABOVE_TERRAIN = 10
 
 
+# The MAV_FRAMEs in which parameters 5 and 6 are latitude and longitude, each with the equivalent frame whose name does
+# not end in INT.
+EQUIVALENT_FRAMES = {0: 0, 3: 3, 10: 10, 5: 0, 6: 3, 11: 10}
+
+
 class Autopilot(IntEnum):
     """The autopilots that missions are written for: MAVLink's MAV_AUTOPILOT.
 
@@ -67,7 +72,10 @@ class MissionItem(NamedTuple):
 
 
 class Mission(NamedTuple):
-    """The items to fly, without home, and the planned home: latitude and longitude, degrees, metres above the sea."""
+    """The items to fly, without home, and the planned home: latitude and longitude, degrees, metres above the sea.
+
+    What is not known of the home is nan. Items that refer to others, such as DO_JUMP, count home as item 0.
+    """
 
     items: tuple[MissionItem, ...]
     home: tuple[float, float, float]

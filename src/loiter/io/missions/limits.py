@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import isnan, trunc
 
-from loiter.io.missions.items import Frame, Mission, MissionItem
+from loiter.io.missions.items import EQUIVALENT_FRAMES, Frame, Mission, MissionItem
+from loiter.io.missions.references import dangling_reference
 from loiter.io.reading import Source
 
 # MAVLink has 16 bits for the number of items, and 16 for a command.
@@ -21,30 +23,48 @@ def truncated(value: float) -> float:
 
 
 def checked_item(source: Source, where: str, item: MissionItem) -> MissionItem:
-    """The item, if its frame is known and its place is on Earth."""
-    if item.frame not in tuple(Frame):
-        known = ", ".join(str(frame.value) for frame in Frame)
+    """The item, in one of the frames of `Frame`, if its frame is known and its place is on Earth."""
+    if item.frame == Frame.NOWHERE:
+        return item
+    if item.frame not in EQUIVALENT_FRAMES:
+        known = ", ".join(map(str, sorted({Frame.NOWHERE.value, *EQUIVALENT_FRAMES})))
         raise source.fault(f"{where}: the frame is {item.frame}: only {known} are known")
-    if item.frame != Frame.NOWHERE:
-        check_place(source, where, item.latitude_deg, item.longitude_deg, item.altitude_m)
-    return item
+    check_place(source, where, item.latitude_deg, item.longitude_deg, item.altitude_m)
+    return item._replace(frame=EQUIVALENT_FRAMES[item.frame])
 
 
 def check_place(source: Source, where: str, latitude_deg: float, longitude_deg: float, altitude_m: float) -> None:
-    """Raise `InvalidArgument` for latitudes, longitudes and altitudes out of range."""
+    """Raise `InvalidArgument` for latitudes, longitudes and altitudes out of range, and for those that are nan."""
     for name, value, most, unit in (
         ("latitude", latitude_deg, 90.0, "degrees"),
         ("longitude", longitude_deg, 180.0, "degrees"),
         ("altitude", altitude_m, HIGHEST_ITEM_M, "metres"),
     ):
-        if abs(value) > most:
+        if not abs(value) <= most:
             raise source.fault(f"{where}: the {name} is {value:g}: it must be from {-most:g} to {most:g} {unit}")
 
 
-def checked_mission(source: Source, mission: Mission) -> Mission:
-    """The mission, if it has items, and no more than MAVLink allows."""
-    if not mission.items:
+def check_home(source: Source, where: str, home: tuple[float, float, float]) -> None:
+    """Raise `InvalidArgument` for a home that is out of range; what is nan of it is not known."""
+    latitude_deg, longitude_deg, altitude_m = (0.0 if isnan(value) else value for value in home)
+    check_place(source, where, latitude_deg, longitude_deg, altitude_m)
+
+
+def checked_mission(
+    source: Source, items: Sequence[tuple[str, MissionItem]], home: tuple[float, float, float]
+) -> Mission:
+    """The mission of items, each with its place in the file.
+
+    Raises `InvalidArgument` for items that are out of range or refer to items that do not exist, for a mission without
+    items, and for more than MAVLink allows.
+    """
+    if not items:
         raise source.fault("the mission has no items")
-    if len(mission.items) > MAX_COUNT:
-        raise source.fault(f"the mission has {len(mission.items)} items: MAVLink counts up to {MAX_COUNT}")
+    if len(items) > MAX_COUNT:
+        raise source.fault(f"the mission has {len(items)} items: MAVLink counts up to {MAX_COUNT}")
+    mission = Mission(tuple(checked_item(source, where, item) for where, item in items), home)
+    dangling = dangling_reference(mission.items)
+    if dangling is not None:
+        index, problem = dangling
+        raise source.fault(f"{items[index][0]}: {problem}")
     return mission

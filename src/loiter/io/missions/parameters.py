@@ -1,7 +1,8 @@
 """Parameter files of autopilots: airspeed, bank limit and loiter circle.
 
-There are two formats: lines of `NAME,VALUE` or `NAME VALUE`, as Mission Planner and MAVProxy write them, and
-QGroundControl's five columns vehicle, component, name, value and type. The parameter names identify the autopilot.
+There are two formats: lines of a name and a value, as Mission Planner and MAVProxy write them, and QGroundControl's
+five columns vehicle, component, name, value and type. Commas, blanks, tabs or equals signs separate them. The parameter
+names identify the autopilot.
 """
 
 from __future__ import annotations
@@ -20,8 +21,15 @@ from loiter.planning.model import Turn
 
 QUANTITIES = ("indicated_airspeed_m_s", "max_bank_deg", "loiter")
 
-# Names of autopilot parameters, and _HASH_CHECK, the hash of all parameters, which PX4 adds.
-NAME = re.compile(r"_?[A-Z][A-Z0-9_]{0,15}", re.ASCII)
+# Names of autopilot parameters, and _HASH_CHECK, the hash of all parameters, which PX4 adds. Files for simulators have
+# names that are longer than the 16 characters of MAVLink.
+NAME = re.compile(r"_?[A-Z][A-Z0-9_]*", re.ASCII)
+
+COLUMNS = 5
+SEPARATORS = re.compile(r"[\s,=]+")
+
+# ArduPilot's mark of a default value that cannot be changed.
+READ_ONLY = "@READONLY"
 
 # Names that MAVLink allows. QGroundControl writes the parameters of every component, such as a camera or a gimbal.
 MAVLINK_NAME = re.compile(r"[A-Za-z0-9_.-]{1,16}", re.ASCII)
@@ -104,7 +112,7 @@ def _known_lines(source: Source, text: str) -> list[ParameterLine]:
     if not rows:
         raise source.fault("it has no parameters")
     (_, header), *_ = rows
-    split = _five_columns if header.count("\t") == 4 else _name_and_value
+    split = _five_columns if len(SEPARATORS.split(header)) == COLUMNS else _name_and_value
     named = [(number, *_name_and_text(source, number, line, split)) for number, line in rows]
     # The values of unknown parameters are not checked: PX4 has some that are nan.
     lines = [
@@ -135,14 +143,15 @@ def _name_and_text(
 
 
 def _name_and_value(line: str) -> tuple[str, str] | None:
-    match line.replace(",", " ").split():
-        case [name, value] if NAME.fullmatch(name):
-            return name, value
-    return None
+    """Name and value; for a parameter that is not read, the value is whatever follows, even nothing."""
+    name, *values = SEPARATORS.split(line.removesuffix(READ_ONLY).strip())
+    if not NAME.fullmatch(name) or (name in PARAMETERS and len(values) != 1):
+        return None
+    return name, " ".join(values)
 
 
 def _five_columns(line: str) -> tuple[str, str] | None:
-    match line.split("\t"):
+    match SEPARATORS.split(line):
         case [vehicle, component, name, value, kind] if MAVLINK_NAME.fullmatch(name):
             return (name, value) if all(f.isascii() and f.isdigit() for f in (vehicle, component, kind)) else None
     return None

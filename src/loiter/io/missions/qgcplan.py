@@ -6,17 +6,17 @@ A DO_JUMP item of a plan names its target by `doJumpId`; that is converted to an
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Set
 from math import isfinite, isnan, nan
 from typing import Any
 
 from loiter.errors import as_float
 from loiter.io.missions.items import Autopilot, Frame, Mission, MissionItem
-from loiter.io.missions.limits import MAX_COMMAND, check_place, checked_item, checked_mission
+from loiter.io.missions.limits import MAX_COMMAND, check_home, checked_mission
+from loiter.io.missions.references import DO_JUMP
 from loiter.io.reading import Source, shown
 
 FIXED_WING = 1  # MAV_TYPE_FIXED_WING
-DO_JUMP = 177  # MAV_CMD_DO_JUMP
 
 LONGEST_INTEGER = 20
 
@@ -57,7 +57,7 @@ def read_qgcplan(source: Source, text: str) -> Mission:
     document = read_document(source, text)
     home = read_home(source, document)
     numbered_items = [_item(source, f"item {number}", item) for number, item in _items(source, document)]
-    return checked_mission(source, Mission(_with_jump_targets(source, numbered_items), home))
+    return checked_mission(source, _with_jump_targets(source, numbered_items), home)
 
 
 def read_document(source: Source, text: str) -> dict[str, Any]:
@@ -78,18 +78,25 @@ def read_plan(source: Source, text: str) -> dict[str, Any]:
 
 
 def read_home(source: Source, document: dict[str, Any]) -> tuple[float, float, float]:
-    """The planned home: latitude and longitude, degrees, metres above the sea. Raises `InvalidArgument`."""
-    home = document["mission"].get("plannedHomePosition")
-    latitude, longitude, altitude = numbers(source, "plannedHomePosition", home, 3)
-    check_place(source, "plannedHomePosition", latitude, longitude, altitude)
+    """The planned home: latitude and longitude, degrees, metres above the sea; nan for what is null or missing.
+
+    Raises `InvalidArgument`.
+    """
+    where, home = "plannedHomePosition", document["mission"].get("plannedHomePosition")
+    latitude, longitude, altitude = _optional_numbers(source, where, [None] * 3 if home is None else home, 3)
+    check_home(source, where, (latitude, longitude, altitude))
     return latitude, longitude, altitude
 
 
-def simple_items(source: Source, document: dict[str, Any]) -> Iterator[tuple[int, MissionItem]]:
-    """The simple items of a plan with their numbers; complex ones are passed over. Raises `InvalidArgument`."""
+def items_of(source: Source, document: dict[str, Any], commands: Set[int]) -> Iterator[tuple[int, str, MissionItem]]:
+    """The simple items of some commands, each with its number and its place in the file; others are passed over.
+
+    Raises `InvalidArgument` for a plan without a list of items, and for an item of these commands that cannot be read.
+    """
     for number, item in _items(source, document):
-        if not isinstance(item, dict) or item.get("type") == "SimpleItem":
-            yield number, _item(source, f"item {number}", item)[1]
+        if isinstance(item, dict) and item.get("type") == "SimpleItem" and item.get("command") in commands:
+            where = f"item {number}"
+            yield number, where, _item(source, where, item)[1]
 
 
 def _items(source: Source, document: dict[str, Any]) -> Iterator[tuple[int, Any]]:
@@ -103,16 +110,17 @@ def _common_mode(mission: Mission) -> int:
 
 
 def _written(number: int, item: MissionItem) -> dict[str, Any]:
-    place = (item.latitude_deg, item.longitude_deg, item.altitude_m)
+    numbers = (*item.params, item.latitude_deg, item.longitude_deg, item.altitude_m)
+    params = [None if isnan(value) else value for value in numbers]
     return {
         "AMSLAltAboveTerrain": None,
-        "Altitude": item.altitude_m,
+        "Altitude": params[-1],
         "AltitudeMode": ALTITUDE_MODES.get(Frame(item.frame), 0),
         "autoContinue": item.autocontinue,
         "command": int(item.command),
         "doJumpId": number,
         "frame": int(item.frame),
-        "params": [*(None if isnan(value) else value for value in item.params), *place],
+        "params": params,
         "type": "SimpleItem",
     }
 
@@ -165,6 +173,13 @@ def numbers(source: Source, where: str, value: Any, count: int) -> list[float]:
     return [number(source, where, one) for one in value]
 
 
+def _optional_numbers(source: Source, where: str, value: Any, count: int) -> list[float]:
+    """A list of finite numbers or nulls, which are nan; `InvalidArgument`, which names the place, otherwise."""
+    if not isinstance(value, list) or len(value) != count:
+        raise source.fault(f"{where} is not a list of {count} numbers")
+    return [nan if one is None else number(source, where, one) for one in value]
+
+
 def number(source: Source, where: str, value: Any) -> float:
     """A finite number; `InvalidArgument`, which names the place, otherwise."""
     found = as_float(value)
@@ -188,28 +203,23 @@ def _item(source: Source, where: str, value: Any) -> tuple[int | None, MissionIt
     command = _integer(source, f"{where}: command", item.get("command"), MAX_COMMAND)
     frame = _integer(source, f"{where}: frame", item.get("frame"), 255)
     autocontinue = kind(source, f"{where}: autoContinue", item.get("autoContinue"), bool, "true or false")
-    params = item.get("params")
-    if not isinstance(params, list) or len(params) != 7:
-        raise source.fault(f"{where}: params is not a list of 7 numbers")
-    # null is nan, which leaves the choice to the autopilot; a place must have numbers.
-    p1, p2, p3, p4 = (nan if value is None else number(source, f"{where}: params", value) for value in params[:4])
-    latitude, longitude, altitude = (number(source, f"{where}: params", value) for value in params[4:])
+    # null leaves the choice to the autopilot.
+    p1, p2, p3, p4, latitude, longitude, altitude = _optional_numbers(source, f"{where}: params", item.get("params"), 7)
     jump = item.get("doJumpId")
     jump_id = None if jump is None else _integer(source, f"{where}: doJumpId", jump, MAX_COMMAND)
-    read = MissionItem(command, frame, (p1, p2, p3, p4), latitude, longitude, altitude, autocontinue)
-    return jump_id, checked_item(source, where, read)
+    return jump_id, MissionItem(command, frame, (p1, p2, p3, p4), latitude, longitude, altitude, autocontinue)
 
 
-def _with_jump_targets(source: Source, items: list[tuple[int | None, MissionItem]]) -> tuple[MissionItem, ...]:
-    """The items, the `doJumpId` in each DO_JUMP replaced by the number of the item that has it."""
+def _with_jump_targets(source: Source, items: list[tuple[int | None, MissionItem]]) -> list[tuple[str, MissionItem]]:
+    """The items and their places in the file; the `doJumpId` in each DO_JUMP is the number of the item that has it."""
     numbers: dict[float, int] = {}
     for number, (jump_id, _) in enumerate(items, start=1):
         if jump_id is not None and numbers.setdefault(jump_id, number) != number:
             raise source.fault(f"item {number}: doJumpId is {jump_id}, as of item {numbers[jump_id]}")
-    return tuple(
-        item if item.command != DO_JUMP else _with_jump_target(source, number, item, numbers)
+    return [
+        (f"item {number}", item if item.command != DO_JUMP else _with_jump_target(source, number, item, numbers))
         for number, (_, item) in enumerate(items, start=1)
-    )
+    ]
 
 
 def _with_jump_target(source: Source, number: int, item: MissionItem, numbers: dict[float, int]) -> MissionItem:

@@ -36,6 +36,10 @@ COMMANDS: dict[MavCommand, CircleParameters] = {
     MavCommand.DO_REPOSITION: CircleParameters(radius=3, direction=4),
 }
 
+# ArduPlane flies its own radius, WP_LOITER_RAD, for radii of up to a metre (Plane::update_loiter). For those of
+# NAV_LOITER_TIME it has no room: it keeps their sign, as 1 or -1 (AP_Mission). No aeroplane holds a circle of a metre.
+OWN_RADIUS_M = 1.0
+
 # The autopilot parameters with the default radius of a loiter, metres; the sign gives the direction as in a command.
 RADIUS_PARAMETERS = {"WP_LOITER_RAD": Autopilot.ARDUPILOT, "NAV_LOITER_RAD": Autopilot.PX4}
 
@@ -98,6 +102,23 @@ def circle(command: int, params: Sequence[float]) -> tuple[float, Turn]:
     direction = float(params[numbers.direction - 1])
     # ArduPlane reads both 0 and nan as clockwise.
     return radius_m, Turn.CW if isnan(direction) or direction == 0.0 else Turn.CCW
+
+
+def held_circle(
+    command: int, params: Sequence[float], autopilot: int | None = None
+) -> tuple[float | None, Turn | None]:
+    """Radius (metres) and direction with which an aeroplane holds the circle of an item; None for its autopilot's own.
+
+    ArduPlane holds a circle without a radius counter-clockwise if its sign says so, otherwise in the direction of
+    WP_LOITER_RAD. The radius of a NAV_LOITER_TIME counts unless `autopilot`, a MAV_AUTOPILOT, is ArduPilot.
+    """
+    try:
+        radius_m, turn = circle(command, params)
+    except InvalidArgument:
+        return None, None
+    if radius_m > OWN_RADIUS_M and (command, autopilot) != (MavCommand.NAV_LOITER_TIME, Autopilot.ARDUPILOT):
+        return radius_m, turn
+    return None, turn if turn == Turn.CCW else None
 
 
 def _circle_parameters(command: int) -> CircleParameters:

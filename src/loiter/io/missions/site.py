@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from math import isnan, nan
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from loiter.errors import InvalidArgument, file_path
-from loiter.io.missions import qgcplan, signs
+from loiter.errors import file_path
+from loiter.io.missions import qgcplan, signs, wpl
 from loiter.io.missions.fences import plan_zones
-from loiter.io.missions.items import Frame, MissionItem
-from loiter.io.missions.wpl import MARK, read_wpl
+from loiter.io.missions.items import EQUIVALENT_FRAMES, MissionItem
+from loiter.io.missions.limits import check_place
 from loiter.io.reading import Source
 from loiter.lazy import LazyModule
 from loiter.planning.model import Turn
@@ -37,6 +38,7 @@ class MissionCircle(NamedTuple):
 class Site(NamedTuple):
     """The circles of a mission, its home (latitude and longitude in degrees, metres above the sea), and its fence.
 
+    What is not known of the home is nan; so is a home at 0 N 0 E, by which ground stations mean that it is not set.
     `fence` is None where there are no zones. `fence_document` is the fence as QGroundControl wrote it, which is kept
     when a plan is saved; None without one.
     """
@@ -46,34 +48,48 @@ class Site(NamedTuple):
     fence: fences.PlacedFence | None = None
     fence_document: dict[str, Any] | None = None
 
+    @property
+    def home_altitude_m(self) -> float | None:
+        """The altitude of home, metres above the sea; None if it is not known."""
+        _, _, altitude_m = self.home
+        return None if isnan(altitude_m) else altitude_m
+
 
 def read_site(path: str | Path, argument: str = "mission") -> Site:
     """The circles, the fence and the home in a QGroundControl plan, or circles and home in a `QGC WPL 110` file.
 
-    Surveys and other complex items of a plan are passed over. Raises `InvalidArgument`, for the argument named, which
+    Items that are no circles are passed over, and so are loiters without a place, which are held where the aircraft is.
+    Raises `InvalidArgument`, for the argument named, which
     names the file and the place in it, for another format and for a file that cannot be read.
     """
     source = Source(argument, Path(file_path("path", path)))
     text = source.text()
-    if text.startswith(MARK):
-        mission = read_wpl(source, text)
-        return Site(tuple(_circles(enumerate(mission.items, start=1))), mission.home)
+    if text.startswith(wpl.MARK):
+        circles = tuple(_circles(source, wpl.items_of(source, text, set(signs.COMMANDS))))
+        return Site(circles, _known_home(wpl.read_home(source, text)))
     if not text.lstrip().startswith("{"):
         raise source.fault("it is neither a QGroundControl plan nor a QGC WPL 110 file")
     document = qgcplan.read_document(source, text)
     fence_document = document.get("geoFence")
     zones = plan_zones(source, fence_document)
-    circles = tuple(_circles(qgcplan.simple_items(source, document)))
+    items = qgcplan.items_of(source, document, set(signs.COMMANDS))
+    circles = tuple(_circles(source, items, document["mission"].get("firmwareType")))
     fence = fences.PlacedFence(tuple(zones)) if zones else None
-    return Site(circles, qgcplan.read_home(source, document), fence, fence_document)
+    return Site(circles, _known_home(qgcplan.read_home(source, document)), fence, fence_document)
 
 
-def _circles(items: Iterable[tuple[int, MissionItem]]) -> Iterator[MissionCircle]:
-    for number, item in items:
-        if item.command not in tuple(signs.COMMANDS) or item.frame == Frame.NOWHERE:
+def _circles(
+    source: Source, items: Iterable[tuple[int, str, MissionItem]], autopilot: int | None = None
+) -> Iterator[MissionCircle]:
+    for number, where, item in items:
+        latitude, longitude = item.latitude_deg, item.longitude_deg
+        if item.frame not in EQUIVALENT_FRAMES or isnan(latitude + longitude) or latitude == longitude == 0.0:
             continue
-        try:
-            radius_m, turn = signs.circle(item.command, item.params)
-        except InvalidArgument:
-            radius_m, turn = None, None
-        yield MissionCircle(number, item.latitude_deg, item.longitude_deg, radius_m, turn)
+        check_place(source, where, latitude, longitude, 0.0)
+        yield MissionCircle(number, latitude, longitude, *signs.held_circle(item.command, item.params, autopilot))
+
+
+def _known_home(home: tuple[float, float, float]) -> tuple[float, float, float]:
+    """The home, nan where it is not set."""
+    latitude_deg, longitude_deg, _ = home
+    return (nan, nan, nan) if latitude_deg == longitude_deg == 0.0 else home

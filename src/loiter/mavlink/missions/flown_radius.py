@@ -9,14 +9,14 @@ of the item (FixedWingModeManager::control_auto_loiter).
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import isfinite, isnan, radians, tan
+from math import isnan, radians, tan
 from typing import NamedTuple
 
 from loiter.errors import InvalidArgument, LinkFailed
 from loiter.geo.atmosphere import eas2tas_squared
 from loiter.io.missions.items import Autopilot, MavCommand
 from loiter.io.missions.mission import BANK_LIMIT, LEAST_REPORTED_M
-from loiter.io.missions.signs import COMMANDS, circle, with_circle
+from loiter.io.missions.signs import OWN_RADIUS_M, circle, held_circle, with_circle
 from loiter.mavlink.autopilots.settings import CRUISE, OLD_CRUISE
 from loiter.mavlink.connection.link import Link, Vehicle
 from loiter.mavlink.connection.parameters import Parameters
@@ -48,8 +48,8 @@ class LoiterScaling(NamedTuple):
         return radius_m / widened
 
     def sent_whole_m(self, radius_m: float, altitude_m: float) -> float:
-        """`sent_m` in whole metres, which ArduPlane stores, and at least 1, since 0 means its default radius."""
-        return max(1.0, float(round(self.sent_m(radius_m, altitude_m))))
+        """`sent_m` in whole metres, which ArduPlane stores, and at least 2, since 1 means its default radius."""
+        return max(OWN_RADIUS_M + 1.0, float(round(self.sent_m(radius_m, altitude_m))))
 
     @property
     def _least_at_sea_level_m(self) -> float | None:
@@ -135,5 +135,5 @@ def _radius_m(item: StoredItem) -> float:
     """The radius of an item's circle, metres; 0 if it has no circle, or if ArduPlane uses a radius of its own."""
     if item.command not in LOITERS:
         return 0.0
-    signed_m = item.params[COMMANDS[LOITERS[item.command]].radius - 1]
-    return abs(signed_m) if isfinite(signed_m) else 0.0
+    radius_m, _ = held_circle(item.command, item.params)
+    return radius_m or 0.0

@@ -14,15 +14,13 @@ from struct import pack, unpack
 from typing import Any, NamedTuple
 
 from loiter.errors import InvalidArgument
-from loiter.io.missions.items import Autopilot, Frame, MavCommand, Mission, MissionItem
+from loiter.io.missions.items import EQUIVALENT_FRAMES, Autopilot, Frame, MavCommand, Mission, MissionItem
 from loiter.io.missions.limits import truncated
+from loiter.io.missions.references import dangling_reference, renumbered
 from loiter.io.missions.signs import Params
 from loiter.mavlink.connection.link import Vehicle, dialect
 from loiter.planning.compass import wrapped
 
-# The MAV_FRAMEs in which x and y are latitude and longitude, each with the equivalent frame whose name does not end in
-# INT. PX4 returns the frames whose names end in INT.
-_EQUIVALENT_FRAMES = {0: 0, 3: 3, 10: 10, 5: 0, 6: 3, 11: 10}
 PER_DEGREE = 1e7
 
 # MISSION_COUNT has 16 bits.
@@ -49,8 +47,9 @@ class StoredItem(NamedTuple):
 def encode(mission: Mission, vehicle: Vehicle, own_home: StoredItem | None = None) -> list[StoredItem]:
     """The items to send to a vehicle for a mission.
 
-    ArduPilot's item 0 is the home: its own if given, otherwise that of the mission. Raises `InvalidArgument` for a
-    mission without items and for numbers that MAVLink cannot represent.
+    ArduPilot's item 0 is the home: its own if given, otherwise that of the mission. Other vehicles have no home: their
+    items count from the first one. Raises `InvalidArgument` for a mission without items or with references to items
+    that do not exist, and for numbers that MAVLink cannot represent.
     """
     if not mission.items:
         raise InvalidArgument("mission", "has no items")
@@ -58,7 +57,14 @@ def encode(mission: Mission, vehicle: Vehicle, own_home: StoredItem | None = Non
     if first + len(mission.items) > MOST_ITEMS:
         count = first + len(mission.items)
         raise InvalidArgument("mission", f"has {count} items: MAVLink allows {MOST_ITEMS}")
-    items = [_encode_item(item, seq, item_name(seq, vehicle)) for seq, item in enumerate(mission.items, start=first)]
+    dangling = dangling_reference(mission.items)
+    if dangling is not None:
+        index, problem = dangling
+        raise InvalidArgument("mission", f"has item {index + 1}: {problem}")
+    items = [
+        _encode_item(_renumbered(item, first - 1), seq, item_name(seq, vehicle))
+        for seq, item in enumerate(mission.items, start=first)
+    ]
     return [own_home or _encode_home(mission, vehicle), *items] if first else items
 
 
@@ -72,7 +78,7 @@ def own_home(items: Sequence[StoredItem], vehicle: Vehicle) -> StoredItem | None
 
 def above_sea_m(item: StoredItem, home_altitude_m: float) -> float:
     """The altitude of an item above the sea, metres; nan if that of its reference is not known."""
-    match _EQUIVALENT_FRAMES.get(item.frame):
+    match EQUIVALENT_FRAMES.get(item.frame):
         case Frame.ABOVE_SEA:
             return item.z
         case Frame.ABOVE_HOME:
@@ -84,9 +90,14 @@ def decode(items: Sequence[StoredItem], vehicle: Vehicle) -> Mission:
     """The mission that a vehicle has; the home is nan if it is not among the items."""
     decoded = tuple(map(decode_item, items))
     if not keeps_home(vehicle) or not decoded:
-        return Mission(decoded, (nan, nan, nan))
+        return Mission(tuple(_renumbered(item, 1) for item in decoded), (nan, nan, nan))
     home, *flown = decoded
     return Mission(tuple(flown), (home.latitude_deg, home.longitude_deg, home.altitude_m))
+
+
+def _renumbered(item: MissionItem, added: int) -> MissionItem:
+    """The item, where the number of another item in it is larger by `added`."""
+    return item._replace(params=renumbered(item.command, item.params, added))
 
 
 def keeps_home(vehicle: Vehicle) -> bool:
@@ -144,7 +155,9 @@ def is_same(some: Sequence[StoredItem], others: Sequence[StoredItem], vehicle: V
 
 
 def _encode_home(mission: Mission, vehicle: Vehicle) -> StoredItem:
-    item = MissionItem(MavCommand.NAV_WAYPOINT, Frame.ABOVE_SEA, (0.0, 0.0, 0.0, 0.0), *mission.home)
+    latitude, longitude, altitude = mission.home
+    place = (latitude, longitude, 0.0 if isnan(altitude) else altitude)
+    item = MissionItem(MavCommand.NAV_WAYPOINT, Frame.ABOVE_SEA, (0.0, 0.0, 0.0, 0.0), *place)
     return _encode_item(item, 0, item_name(0, vehicle))
 
 
@@ -164,7 +177,7 @@ def _encode_item(item: MissionItem, seq: int, name: str) -> StoredItem:
 def _encode_place(item: MissionItem, name: str) -> tuple[int, int]:
     """Latitude and longitude in 1e-7 degrees; parameters 5 and 6 of an item without a place, with 0 for nan."""
     lat, lon = item.latitude_deg, item.longitude_deg
-    if item.frame not in _EQUIVALENT_FRAMES:
+    if item.frame not in EQUIVALENT_FRAMES:
         return round(lat if isfinite(lat) else 0.0), round(lon if isfinite(lon) else 0.0)
     if not (abs(lat) <= 90.0 and abs(lon) <= 360.0):
         raise InvalidArgument("mission", f"has no place on Earth in {name}: {lat:g} {lon:g}")
@@ -175,16 +188,16 @@ def _encode_place(item: MissionItem, name: str) -> tuple[int, int]:
 
 def decode_item(item: StoredItem) -> MissionItem:
     """The item with its place in degrees."""
-    scale = PER_DEGREE if item.frame in _EQUIVALENT_FRAMES else 1.0
+    scale = PER_DEGREE if item.frame in EQUIVALENT_FRAMES else 1.0
     place = item.x / scale, item.y / scale, item.z
-    frame = _EQUIVALENT_FRAMES.get(item.frame, item.frame)
+    frame = EQUIVALENT_FRAMES.get(item.frame, item.frame)
     return MissionItem(item.command, frame, item.params, *place, bool(item.autocontinue))
 
 
 def _fields(item: StoredItem) -> dict[str, float]:
     """The values that are compared, by name."""
     params = {f"parameter {i}": value for i, value in enumerate(item.params, 1)}
-    frame = _EQUIVALENT_FRAMES.get(item.frame, item.frame)
+    frame = EQUIVALENT_FRAMES.get(item.frame, item.frame)
     place = {"x": item.x, "y": item.y, "altitude": item.z}
     return {"command": item.command, "frame": frame, **params, **place, "autocontinue": item.autocontinue}
 
@@ -193,7 +206,7 @@ def _as_stored(item: StoredItem, vehicle: Vehicle) -> StoredItem:
     """The item as the autopilot of a vehicle is known to store it."""
     if vehicle.autopilot == Autopilot.ARDUPILOT:
         return item._replace(params=_stored_by_ardupilot(item.command, item.params), autocontinue=1)
-    if vehicle.autopilot == Autopilot.PX4 and item.frame in _EQUIVALENT_FRAMES:
+    if vehicle.autopilot == Autopilot.PX4 and item.frame in EQUIVALENT_FRAMES:
         return item._replace(params=_stored_by_px4(item.command, item.params))
     return item
 
