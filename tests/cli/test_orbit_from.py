@@ -125,7 +125,7 @@ def first_area(kind, key, value):
         (first_area("circles", "circle", {"center": [47, 8], "radius": 0}), "radius is 0: it must be positive"),
         (first_area("polygons", "polygon", [[47, 8], [47, 9]]), "geoFence: polygon 1: it has 2 corners"),
         (first_area("polygons", "polygon", [[47], [47, 9], [48, 8]]), "geoFence: polygon 1 is not a list of 2 numbers"),
-        (lambda d: d["mission"].pop("plannedHomePosition"), "plannedHomePosition is not a list of 3 numbers"),
+        (lambda d: d["mission"].update(plannedHomePosition=[47]), "plannedHomePosition is not a list of 3 numbers"),
         (lambda d: d["mission"].update(items=d["mission"]["items"][:1]), "its mission has no loiter"),
     ],
 )
@@ -134,6 +134,79 @@ def test_what_cannot_be_read_is_named(existing, refusal, change, problem):
     err = refusal(["plan", *START.split(), "--orbit-from", str(path), *UAV.split()])
     assert problem in err
     assert str(path) in err
+
+
+def unneeded(document):
+    """Items that are no circles, some of which no mission could have; loiters without a place; no home."""
+    loiter = document["mission"]["items"][-1]
+    waypoint = document["mission"]["items"][1]
+    before = [
+        waypoint | {"command": 530, "frame": 2, "params": [0, 2] + [None] * 5},
+        waypoint | {"command": 177, "frame": 2, "params": [99] + [0] * 6},
+        waypoint | {"frame": 4, "params": [0] * 3},
+        loiter | {"params": [0, 0, 70, 0, 0, 0, 100]},
+        loiter | {"params": [0, 0, 70, 0, None, None, 100]},
+    ]
+    loiter["params"][6] = None
+    document["mission"].update(items=[*before, loiter], plannedHomePosition=None)
+
+
+def test_what_is_not_needed_of_a_mission_does_not_matter(existing, planned):
+    asked = planned(f"{START} --orbit-lla 47.11 8.23 120 --turn ccw {UAV}")
+    got = planned(f"{START} --orbit-from {existing(change=unneeded)} {UAV}")
+    assert got["duration_s"] == pytest.approx(asked["duration_s"], abs=1e-6)
+    assert got["turn"] == "ccw"
+
+
+def test_what_is_not_needed_of_waypoints_does_not_matter(tmp_path):
+    path = tmp_path / "theirs.waypoints"
+    path.write_text(
+        "QGC WPL 110\n# no home\n7 1 3 22 0 0\n8 0 0 177 50 0 0 0 0 0 0 1\n9 0 6 17 0 0 -120 0 47.11 8.23 nan 1\n"
+        "9 0 3 19 60 0 1 0 47.12 8.24 100 1\n9 0 3 19 60 0 -1 0 0 0 100 1\n"
+    )
+    site = read_site(path)
+    assert site.circles == (
+        MissionCircle(3, 47.11, 8.23, 120.0, loiter.Turn.CCW),
+        MissionCircle(4, 47.12, 8.24, None, None),
+    )
+    assert (site.home_altitude_m, site.fence) == (None, None)
+
+
+@pytest.mark.parametrize("home", [[47.09, 8.21, None], [0, 0, 0], None])
+def test_the_altitude_of_home_is_asked_for_only_where_it_is_needed(existing, shown, refusal, tmp_path, home):
+    path = existing(change=lambda document: document["mission"].update(plannedHomePosition=home))
+    new = tmp_path / "new.plan"
+    save = f"plan {START} --orbit-from {path} {UAV} --save {new}"
+    text = shown(f"{save} --altitude 900")
+    assert "The altitude of home is not known, so it is 900 m too" in text
+    latitude, longitude, altitude = loiter.io.read_mission(new).home
+    expected = (47.09, 8.21) if home and home[0] else (47.1, 8.2)
+    assert (latitude, longitude, altitude) == (*(pytest.approx(x, abs=1e-7) for x in expected), 900.0)
+    assert "--home-altitude is missing" in refusal(f"{save} --altitude 120 --altitude-reference home")
+    shown(f"{save} --altitude 120 --altitude-reference home --home-altitude 450")
+    assert loiter.io.read_mission(new).home[2] == 450.0
+
+
+@pytest.mark.parametrize(
+    ("sign", "own", "turn"), [(1.0, 90.0, "cw"), (1.0, -90.0, "ccw"), (-1.0, 90.0, "ccw"), (-1.0, -90.0, "ccw")]
+)
+@pytest.mark.parametrize(("firmware", "radius"), [(12, 1.0), (3, 1.0), (3, 120.0)])
+def test_the_radius_of_a_loiter_for_a_time_is_that_of_arduplane(
+    existing, planned, tmp_path, firmware, radius, sign, own, turn
+):
+    """ArduPlane stores only its sign; without a minus it holds in the direction of WP_LOITER_RAD."""
+
+    def change(document):
+        document["mission"]["firmwareType"] = firmware
+        loiter_item = document["mission"]["items"][-1]
+        loiter_item.update(command=19, params=[60, 0, sign * radius, 0, *loiter_item["params"][4:]])
+
+    parameters = tmp_path / "uav.param"
+    parameters.write_text(f"WP_LOITER_RAD,{own}\n")
+    got = planned(f"{START} --orbit-from {existing(change=change)} --params {parameters} {UAV}")
+    asked = planned(f"{START} --orbit-lla 47.11 8.23 90 --turn {turn} {UAV}")
+    assert got["turn"] == turn
+    assert got["duration_s"] == pytest.approx(asked["duration_s"], abs=1e-6)
 
 
 def test_a_loiter_without_a_radius_needs_one(existing, refusal):

@@ -291,19 +291,6 @@ def test_waypoints_of_mission_planner_and_mavproxy_are_read(tmp_path):
     assert read.items[2] == MissionItem(20, 2, (0.0,) * 4, 0.0, 0.0, 0.0, autocontinue=False)
 
 
-def test_a_file_that_pymavlink_saved_is_read(tmp_path):
-    loader = mavwp.MAVWPLoader()
-    for number, (command, radius) in enumerate([(16, 0.0), (16, 0.0), (17, -75.0)]):
-        place = (47.0 + number / 100.0, 8.0, 500.0)
-        loader.add(mavlink.MAVLink_mission_item_message(1, 1, number, 0, command, 0, 1, 0, 0, radius, 0, *place))
-    loader.save(str(tmp_path / "theirs.txt"))
-    read = read_mission(tmp_path / "theirs.txt")
-    assert read.home == pytest.approx((47.0, 8.0, 500.0), abs=1e-9)
-    assert read.items[-1].params == (0.0, 0.0, -75.0, 0.0)
-
-
-# Refusals
-
 GOOD = MissionItem(16, 3, (0.0,) * 4, 47.0, 8.0, 100.0)
 
 
@@ -331,10 +318,76 @@ def whole_plan_with(path, value):
 
 ROW = "1\t0\t3\t16\t0\t0\t0\t0\t47\t8\t100\t1"
 HOME = "0\t1\t0\t16\t0\t0\t0\t0\t47\t8\t500\t1"
+TAKEOFF = "0\t1\t3\t22\t15\t0\t0\t0\t47\t8\t50\t1"
+JUMP = "{}\t0\t2\t177\t{}\t3\t0\t0\t0\t0\t0\t1"
 
 
 def rows(*lines, header="QGC WPL 110"):
     return "\n".join([header, *lines]) + "\n"
+
+
+@pytest.mark.parametrize("home", [HOME, HOME.replace("\t16\t", "\t0\t")])
+def test_the_first_line_is_home_if_it_is_a_waypoint(tmp_path, home):
+    (tmp_path / "a.txt").write_text(rows(home, ROW))
+    read = read_mission(tmp_path / "a.txt")
+    assert (read.home, read.items) == ((47.0, 8.0, 500.0), (GOOD,))
+
+
+def test_a_first_line_that_is_no_waypoint_is_the_first_item(tmp_path):
+    """Its numbers count from that item: here the jump is back to the waypoint."""
+    loiter = ROW.replace("1\t0\t3\t16", "2\t0\t3\t17", 1)
+    (tmp_path / "a.txt").write_text(rows(TAKEOFF, ROW, loiter, JUMP.format(3, 1)))
+    read = read_mission(tmp_path / "a.txt")
+    assert [item.command for item in read.items] == [22, 16, 17, 177]
+    assert read.items[-1].params == (2.0, 3.0, 0.0, 0.0)
+    assert all(map(isnan, read.home))
+
+
+def test_lines_of_comments_are_passed_over(tmp_path):
+    """As MAVProxy does."""
+    (tmp_path / "a.txt").write_text(rows("", "# home", HOME, "  # the field", ROW))
+    assert read_mission(tmp_path / "a.txt").items == (GOOD,)
+
+
+# MAV_FRAME: GLOBAL_INT, GLOBAL_RELATIVE_ALT_INT, GLOBAL_TERRAIN_ALT_INT.
+@pytest.mark.parametrize(("frame", "same"), [(5, Frame.ABOVE_SEA), (6, Frame.ABOVE_HOME), (11, Frame.ABOVE_TERRAIN)])
+def test_frames_whose_names_end_in_int_are_the_same_without(tmp_path, frame, same):
+    for text in (plan_with(frame=frame), rows(HOME, ROW.replace("\t3\t", f"\t{frame}\t", 1))):
+        (tmp_path / "a.plan").write_text(text)
+        assert read_mission(tmp_path / "a.plan").items == (GOOD._replace(frame=same),)
+
+
+def test_what_an_item_without_a_place_leaves_open_is_null_in_a_plan_and_read_back(tmp_path):
+    """SET_CAMERA_MODE as QGroundControl writes it."""
+    text = plan_with(command=530, frame=2, params=[0, 2, None, None, None, None, None])
+    (tmp_path / "a.plan").write_text(text)
+    read = read_mission(tmp_path / "a.plan")
+    assert repr(read.items) == repr((MissionItem(530, 2, (0.0, 2.0, nan, nan), nan, nan, nan),))
+    (tmp_path / "b.plan").write_bytes(qgcplan(read, Autopilot.PX4, 18.0))
+    (tmp_path / "b.txt").write_bytes(wpl(read))
+    for name in ("b.plan", "b.txt"):
+        assert repr(read_mission(tmp_path / name)) == repr(read)
+
+
+@pytest.mark.parametrize("home", [None, [None, None, None], [47.0, 8.0, None]])
+def test_a_home_may_be_unknown(tmp_path, home):
+    (tmp_path / "a.plan").write_text(whole_plan_with(["mission", "plannedHomePosition"], home))
+    read = read_mission(tmp_path / "a.plan")
+    assert repr(read.home) == repr((*(home[:2] if home and home[0] else (nan, nan)), nan))
+
+
+def test_a_file_that_pymavlink_saved_is_read(tmp_path):
+    loader = mavwp.MAVWPLoader()
+    for number, (command, radius) in enumerate([(16, 0.0), (16, 0.0), (17, -75.0)]):
+        place = (47.0 + number / 100.0, 8.0, 500.0)
+        loader.add(mavlink.MAVLink_mission_item_message(1, 1, number, 0, command, 0, 1, 0, 0, radius, 0, *place))
+    loader.save(str(tmp_path / "theirs.txt"))
+    read = read_mission(tmp_path / "theirs.txt")
+    assert read.home == pytest.approx((47.0, 8.0, 500.0), abs=1e-9)
+    assert read.items[-1].params == (0.0, 0.0, -75.0, 0.0)
+
+
+# Refusals
 
 
 @pytest.mark.parametrize(
@@ -362,7 +415,7 @@ def rows(*lines, header="QGC WPL 110"):
         (whole_plan_with(["mission", "items"], [7]), "item 1 is 7: it must be an object"),
         (whole_plan_with(["mission", "items"], [{}] * 2), "item 1 is None: only simple items are read"),
         (whole_plan_with(["mission", "plannedHomePosition"], [1, 2]), "plannedHomePosition is not a list of 3 numbers"),
-        (whole_plan_with(["mission", "plannedHomePosition"], [1, 2, None]), "plannedHomePosition has None: it must be"),
+        (whole_plan_with(["mission", "plannedHomePosition"], [1, 2, "3"]), "plannedHomePosition has '3': it must be a"),
         (
             whole_plan_with(["mission", "plannedHomePosition"], [91, 2, 3]),
             "plannedHomePosition: the latitude is 91: it",
@@ -376,12 +429,13 @@ def rows(*lines, header="QGC WPL 110"):
         (plan_with(command=16.0), "item 1: command is 16.0: it must be a whole number"),
         (plan_with(command=-1), "item 1: command is -1: it must be a whole number"),
         (plan_with(command=70000), "item 1: command is 70000: it must be a whole number from 0 to 65535"),
-        (plan_with(frame=5), "item 1: the frame is 5: only 0, 2, 3, 10 are known"),
+        (plan_with(frame=4), "item 1: the frame is 4: only 0, 2, 3, 5, 6, 10, 11 are known"),
         (plan_with(frame=False), "item 1: frame is False: it must be a whole number"),
         (plan_with(autoContinue=1), "item 1: autoContinue is 1: it must be true or false"),
         (plan_with(params=[0] * 6), "item 1: params is not a list of 7 numbers"),
         (plan_with(params=["0"] * 7), "item 1: params has '0': it must be a finite number"),
-        (plan_with(params=[0, 0, 0, 0, None, 8, 9]), "item 1: params has None: it must be a finite number"),
+        (plan_with(params=[0, 0, 0, 0, None, 8, 9]), "item 1: the latitude is nan: it must be from -90 to 90 degrees"),
+        (plan_with(params=[0, 0, 0, 0, 9, 8, None]), "item 1: the altitude is nan: it must be from -83000 to 83000"),
         (plan_with(params=[0, 0, 0, 0, 91, 8, 9]), "item 1: the latitude is 91: it must be from -90 to 90 degrees"),
         (plan_with(params=[0, 0, 0, 0, 9, -181, 9]), "item 1: the longitude is -181: it must be from -180 to 180 deg"),
         (plan_with(params=[0, 0, 0, 0, 9, 8, 1e6]), r"item 1: the altitude is 1e\+06: it must be from -83000 to 83000"),
@@ -392,7 +446,20 @@ def rows(*lines, header="QGC WPL 110"):
             whole_plan_with(["mission", "items"], [json.loads(plan_with())["mission"]["items"][0]] * 2),
             "item 2: doJumpId is 1, as of item 1",
         ),
+        (
+            plan_with(command=224, params=[2, 0, 0, 0, 9, 8, 9]),
+            "item 1: it refers to item 2: the mission has items 1 t",
+        ),
         ("QGC WPL 110", "it ends after its first line"),
+        ("QGC WPL 110\n# nothing\n", "it ends after its first line"),
+        (rows(HOME, JUMP.format(1, 2)), "line 3: it jumps to item 2: the mission has items 1 to 1"),
+        (
+            rows(HOME, JUMP.format(1, 0), ROW.replace("1", "2", 1)),
+            "line 3: it jumps to item 0: the mission has items 1",
+        ),
+        (rows(HOME, JUMP.format(1, 1.5)), "line 3: it jumps to item 1.5: the mission has items 1 to 1"),
+        (rows(HOME, JUMP.format(1, "nan")), "line 3: it jumps to item nan: the mission has items 1 to 1"),
+        (rows(TAKEOFF, JUMP.format(1, 2)), "line 3: it jumps to item 3: the mission has items 1 to 2"),
         (rows(HOME, ROW, header="QGC WPL 120"), "its first line is 'QGC WPL 120': it must be QGC WPL 110"),
         (rows(HOME, ROW, header="QGC WPL"), "its first line is 'QGC WPL': it must be QGC WPL 110"),
         (rows(HOME), "the mission has no items"),
@@ -406,9 +473,9 @@ def rows(*lines, header="QGC WPL 110"):
             "line 3: the item's number is 'one': it must be a whole number from 0",
         ),
         (rows(HOME, ROW.replace("\t0\t", "\t2\t", 1)), "line 3: the mark of the current item is '2': it must be a who"),
-        (rows(HOME, ROW.replace("\t3\t", "\t4\t", 1)), "line 3: the frame is 4: only 0, 2, 3, 10 are known"),
+        (rows(HOME, ROW.replace("\t3\t", "\t4\t", 1)), "line 3: the frame is 4: only 0, 2, 3, 5, 6, 10, 11"),
         (rows(HOME, ROW.replace("\t16\t", "\t99999\t")), "line 3: the command is '99999': it must be a whole number"),
-        (rows(HOME, ROW.replace("\t47\t", "\tnan\t")), "line 3: a number is 'nan': it must be a finite number"),
+        (rows(HOME, ROW.replace("\t47\t", "\tnan\t")), "line 3: the latitude is nan: it must be from -90 to 90 degre"),
         (rows(HOME, ROW.replace("\t47\t", "\t1e999\t")), "line 3: a number is '1e999': it must be a finite number"),
         (rows(HOME, ROW.replace("\t47\t", "\t4_7\t")), "line 3: a number is '4_7': it must be a finite number"),
         (rows(HOME, ROW.replace("\t47\t", "\t４７\t")), "line 3: a number is '４７': it must be a finite number"),

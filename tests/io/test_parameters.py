@@ -56,6 +56,10 @@ def read(tmp_path, text, name="uav.param"):
         (ARDUPLANE, Preset(Autopilot.ARDUPILOT, 22.5, 45.0, 80.0, Turn.CCW)),
         (OLD_ARDUPLANE, Preset(Autopilot.ARDUPILOT, 18.0, 45.0, 60.0, Turn.CW)),
         (PX4, Preset(Autopilot.PX4, 15.0, 50.0, 80.0, Turn.CW)),
+        (PX4.replace("\t", "    "), Preset(Autopilot.PX4, 15.0, 50.0, 80.0, Turn.CW)),
+        (ARDUPLANE.replace(",", "="), Preset(Autopilot.ARDUPILOT, 22.5, 45.0, 80.0, Turn.CCW)),
+        (ARDUPLANE.replace(",", " = "), Preset(Autopilot.ARDUPILOT, 22.5, 45.0, 80.0, Turn.CCW)),
+        (ARDUPLANE.replace("\n", " @READONLY\n"), Preset(Autopilot.ARDUPILOT, 22.5, 45.0, 80.0, Turn.CCW)),
         (PX4.replace("RAD\t80", "RAD\t-80"), Preset(Autopilot.PX4, 15.0, 50.0, 80.0, Turn.CCW)),
     ],
 )
@@ -64,7 +68,7 @@ def test_formats_are_distinguished_by_their_content(tmp_path, text, expected, na
 
 
 def test_the_values_of_other_parameters_do_not_matter(tmp_path):
-    others = "SERIAL_MASK,0x1F\nOTHER,nan\nOTHER,1\n"
+    others = "SERIAL_MASK,0x1F\nOTHER,nan\nOTHER,1\nSIM_GPS1_BYTELOSS,0\nPTCH_LIMIT_MAX_DEG 20 25\nOTHER\n"
     assert read(tmp_path, others + ARDUPLANE) == read(tmp_path, ARDUPLANE)
 
 

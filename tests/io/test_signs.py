@@ -11,7 +11,15 @@ from pymavlink.dialects.v20 import all as mavlink
 from loiter import Turn
 from loiter.errors import InvalidArgument
 from loiter.io import Autopilot, Frame, MavCommand
-from loiter.io.missions.signs import COMMANDS, RADIUS_PARAMETERS, circle, radius_and_turn, signed_radius_m, with_circle
+from loiter.io.missions.signs import (
+    COMMANDS,
+    RADIUS_PARAMETERS,
+    circle,
+    held_circle,
+    radius_and_turn,
+    signed_radius_m,
+    with_circle,
+)
 
 DEFINITIONS = mavlink.enums["MAV_CMD"]
 ONE_WAY = st.sampled_from([Turn.CW, Turn.CCW])
@@ -103,6 +111,33 @@ def test_the_parameters_of_both_autopilots_are_there():
 @pytest.mark.parametrize("direction", [0.0, nan])
 def test_a_reposition_without_a_direction_is_clockwise(direction):
     assert circle(MavCommand.DO_REPOSITION, (-1.0, 1.0, 80.0, direction)) == (80.0, Turn.CW)
+
+
+@pytest.mark.parametrize("autopilot", [None, *Autopilot])
+@pytest.mark.parametrize(
+    ("command", "params"),
+    [
+        (MavCommand.NAV_LOITER_UNLIM, (0.0, 0.0, 1.0, 0.0)),
+        (MavCommand.NAV_LOITER_TURNS, (2.0, 0.0, 1.0, 0.0)),
+        (MavCommand.NAV_LOITER_TIME, (60.0, 0.0, 1.0, 0.0)),
+        (MavCommand.NAV_LOITER_TO_ALT, (0.0, 1.0, 0.0, 0.0)),
+    ],
+)
+def test_a_radius_of_a_metre_is_that_of_the_autopilot(command, params, autopilot):
+    """ArduPlane returns 1 or -1 for every NAV_LOITER_TIME, and flies WP_LOITER_RAD for all radii of up to a metre:
+    counter-clockwise if the sign says so, otherwise in the direction of that parameter (Plane::update_loiter)."""
+    place = COMMANDS[command].radius - 1
+
+    def held(radius_m):
+        return held_circle(command, (*params[:place], radius_m, *params[place + 1 :]), autopilot)
+
+    for radius_m in (0.5, 1.0):
+        assert held(radius_m) == (None, None)
+        assert held(-radius_m) == (None, Turn.CCW)
+    stored = (command, autopilot) != (MavCommand.NAV_LOITER_TIME, Autopilot.ARDUPILOT)
+    assert held(80.0) == ((80.0, Turn.CW) if stored else (None, None))
+    assert held(-80.0) == (80.0 if stored else None, Turn.CCW)
+    assert held(0.0) == held(nan) == (None, None)
 
 
 @pytest.mark.parametrize("radius_m", [0.0, -0.0, nan, inf])

@@ -602,6 +602,39 @@ def test_an_item_without_a_place_goes_as_it_is():
     assert vehicle.mission[0] == item(178, 2, (0.0, 18.0, -1.0, 0.0), 0, 3, 0.0)
 
 
+# Items that refer to item 3: DO_JUMP, DO_SET_MISSION_CURRENT, and DO_SET_ROI of a waypoint (MAV_ROI_WPINDEX).
+REFERENCES = [(177, (3.0, 2.0, 0.0, 0.0)), (224, (3.0, 1.0, 0.0, 0.0)), (201, (2.0, 3.0, 0.0, 0.0))]
+
+# Items that refer to none: the present item, a region of interest that is none, and a tag.
+NO_REFERENCES = [(224, (-1.0, 1.0, 0.0, 0.0)), (201, (0.0, 3.0, 0.0, 0.0)), (601, (3.0, 2.0, 0.0, 0.0))]
+
+
+@pytest.mark.parametrize(("command", "params"), [*REFERENCES, *NO_REFERENCES])
+@pytest.mark.parametrize(("kind", "fewer"), [(Vehicle, 1), (Plane, 0)])
+def test_px4_counts_items_without_home(kind, fewer, command, params, monkeypatch):
+    """Item 3, where home is 0, is the third one of ArduPlane after its home, and item 2 of PX4."""
+    monkeypatch.setattr(Plane, "stored", Vehicle.stored)
+    referring = MissionItem(command, Frame.NOWHERE, params, 0.0, 0.0, 0.0)
+    new = Mission((*NEW.items, referring), NEW.home)
+    with flying(kind()) as vehicle:
+        upload(new, vehicle.connection, system=1)
+        assert download(vehicle.connection, system=1).items[-1] == referring
+    fewer = fewer if (command, params) in REFERENCES else 0
+    assert vehicle.mission[-1].params == tuple(value - fewer if value == 3.0 else value for value in params)
+
+
+@pytest.mark.parametrize("number", [0.0, 7.0, 2.5, float("nan")])
+def test_a_jump_to_an_item_that_does_not_exist_is_not_sent(number):
+    jump = MissionItem(177, Frame.NOWHERE, (number, 2.0, 0.0, 0.0), 0.0, 0.0, 0.0)
+    new = Mission((*NEW.items, jump), NEW.home)
+    with (
+        flying(Vehicle()) as vehicle,
+        pytest.raises(InvalidArgument, match=rf"^mission has item 6: it jumps to item {number:g}: .* 1 to 6$"),
+    ):
+        upload(new, vehicle.connection, system=1)
+    assert vehicle.mission == OLD
+
+
 def test_a_parameter_may_be_the_autopilots_own():
     nan = float("nan")
     new = Mission((MissionItem(MavCommand.NAV_WAYPOINT, 0, (0.0, 0.0, 0.0, nan), 47.0, 8.0, 500.0),), NEW.home)
