@@ -9,19 +9,20 @@ from hypothesis import strategies as st
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
 from loiter import Turn
+from loiter.io.missions import references
 from loiter.io.missions.items import Autopilot, Frame, MavCommand, Mission, MissionItem
-from loiter.io.missions.references import NUMBERS
 from loiter.io.missions.signs import circle, with_circle
 from loiter.mavlink.connection.link import Vehicle
+from loiter.mavlink.missions import stored_items
 from loiter.mavlink.missions.stored_items import decode, differences, encode, from_message, is_same, to_message
 
 PX4, PLANE, OTHER = (Vehicle(1, 1, code) for code in (Autopilot.PX4, Autopilot.ARDUPILOT, 0))
 HOME = (47.0, 8.0, 400.0)
 singles = st.floats(width=32, allow_infinity=False, min_value=-(2.0**100), max_value=2.0**100)
 frames = st.sampled_from([Frame.ABOVE_SEA, Frame.ABOVE_HOME, Frame.ABOVE_TERRAIN])
-commands = st.one_of(
-    st.integers(0, 65535).filter(lambda command: command not in NUMBERS), st.sampled_from(list(MavCommand))
-)
+# Commands that have a place, and no number of another item.
+others = {*references.NUMBERS, *stored_items._UNPLACED_BY_PX4, *stored_items._NUMBERS_IN_PLACE}
+commands = st.one_of(st.integers(0, 65535).filter(lambda c: c not in others), st.sampled_from(list(MavCommand)))
 latitudes = st.integers(-900000000, 900000000).map(lambda x: x / 1e7)
 longitudes = st.integers(-1800000000, 1800000000).map(lambda x: x / 1e7)
 altitudes = st.floats(-1000.0, 50000.0, width=32)

@@ -623,6 +623,68 @@ def test_px4_counts_items_without_home(kind, fewer, command, params, monkeypatch
     assert vehicle.mission[-1].params == tuple(value - fewer if value == 3.0 else value for value in params)
 
 
+NAN = float("nan")
+
+# Items as Mission Planner and QGroundControl write them, in the frame of the waypoints and without a place: a takeoff,
+# DO_LAND_START, a jump, DO_CHANGE_SPEED, a picture (DO_DIGICAM_CONTROL, whose parameter 5 is 1), a landing, a return.
+THEIRS = [
+    MissionItem(22, Frame.ABOVE_HOME, (15.0, 0.0, 0.0, NAN), 47.0, 8.0, 50.0),
+    *(
+        MissionItem(command, frame, params, fifth, 0.0, 0.0)
+        for command, params, fifth in [
+            (189, (0.0, 0.0, 0.0, 0.0), 0.0),
+            (177, (1.0, 2.0, 0.0, 0.0), 0.0),
+            (178, (0.0, 18.5, -1.0, 0.0), 0.0),
+            (203, (1.0, 0.0, 0.0, 0.0), 1.0),
+            (20, (0.0, 0.0, 0.0, 0.0), 47.5),
+        ]
+        for frame in (Frame.ABOVE_HOME, Frame.ABOVE_SEA, Frame.NOWHERE)
+    ),
+    MissionItem(21, Frame.ABOVE_HOME, (20.5, 0.0, 0.0, NAN), 47.0, 8.0, 0.0),
+]
+
+
+class Strict(Vehicle):
+    """PX4 knows commands without a place in MAV_FRAME_MISSION alone (parse_mavlink_mission_item)."""
+
+    def on_mission_item_int(self, message):
+        if message.command in {20, 177, 178, 189, 203} and message.frame != 2:
+            self.incoming = None
+            return self.acknowledge(3)
+        return super().on_mission_item_int(message)
+
+
+@pytest.mark.parametrize("kind", [Strict, Plane])
+def test_missions_of_ground_stations_arrive(kind):
+    """What ArduPilot has no room for is said. It returns items without a place in frame 0: that is no difference."""
+    new = Mission((*NEW.items, *THEIRS), NEW.home)
+    with flying(kind()) as vehicle:
+        summary = upload(new, vehicle.connection, system=1)
+        back = download(vehicle.connection, system=1)
+    assert [i.command for i in back.items] == [i.command for i in new.items]
+    assert [i.params for i in back.items if i.command in (177, 178, 203)] == [
+        i.params for i in new.items if i.command in (177, 178, 203)
+    ]
+    assert {i.x for i in vehicle.mission if i.command == 203} == {1}
+    names = ["item 6 has 0 for parameter 4, not nan", "item 22 has 20 for parameter 1, not 20.5"]
+    assert summary.cut == ((*names, "item 22 has 1 for parameter 4, not nan") if kind is Plane else ())
+
+
+class Forgets(Plane):
+    """ArduPlane that returns a change of speed to another one, or a jump to another item."""
+
+    def stored(self, m):
+        kept = super().stored(m)
+        return kept._replace(params=(kept.params[0], kept.params[1] + 1.0, *kept.params[2:]))
+
+
+@pytest.mark.parametrize("command", [177, 178])
+def test_what_ardupilot_changes_without_need_is_found(command):
+    new = Mission((MissionItem(command, Frame.NOWHERE, (1.0, 2.0, 0.0, 0.0), 0.0, 0.0, 0.0),), NEW.home)
+    with flying(Forgets()) as vehicle, pytest.raises(LinkFailed, match=r"item 1 has 3 for parameter 2, not 2"):
+        upload(new, vehicle.connection, system=1)
+
+
 @pytest.mark.parametrize("number", [0.0, 7.0, 2.5, float("nan")])
 def test_a_jump_to_an_item_that_does_not_exist_is_not_sent(number):
     jump = MissionItem(177, Frame.NOWHERE, (number, 2.0, 0.0, 0.0), 0.0, 0.0, 0.0)

@@ -337,15 +337,30 @@ class Plane(Vehicle):
         return None
 
     def stored(self, m):
-        """As AP_Mission keeps a waypoint and loiters of up to 255 m: whole metres, centimetres."""
-        frame = {5: 0, 6: 3}.get(m.frame, m.frame)
-        turns, second, radius = (float(int(value)) for value in (m.param1, m.param2, m.param3))
+        """As AP_Mission keeps a waypoint and loiters of up to 255 m: whole metres, centimetres.
+
+        Of commands without a place it returns frame and place as 0, and of all commands the parameters that it uses.
+        """
+        frame = {2: 0, 5: 0, 6: 3}.get(m.frame, m.frame)
+        first, second, radius = (float(int(value)) for value in (m.param1, m.param2, m.param3))
         params = {
+            16: (0.0, second, 0.0, 0.0),
             17: (0.0, 0.0, radius, 0.0),
-            18: (turns, 0.0, radius, m.param4),
-            19: (turns, 0.0, math.copysign(1.0, radius), m.param4),
+            18: (first, 0.0, radius, m.param4),
+            19: (first, 0.0, math.copysign(1.0, radius), m.param4),
+            20: (0.0, 0.0, 0.0, 0.0),
+            21: (first, 0.0, 0.0, -1.0 if m.param4 < 0.0 else 1.0),
+            22: (first, 0.0, 0.0, 0.0),
             31: (0.0, second, 0.0, m.param4),
-        }.get(m.command, (0.0, second, 0.0, 0.0))
+            177: (first, second, 0.0, 0.0),
+            178: (first, m.param2, radius, 0.0),
+            189: (0.0, 0.0, 0.0, 0.0),
+            203: (first, second, radius, m.param4),
+        }[m.command]
+        if m.command == 203:
+            return item(203, 0, params, m.x, m.y, 0.0)
+        if m.command in {20, 177, 178}:
+            return item(m.command, 0, params, 0, 0, 0.0)
         return item(m.command, frame, params, m.x, m.y, int(m.z * 100.0) / 100.0)
 
     def on_mission_ack(self, message):

@@ -26,6 +26,19 @@ PER_DEGREE = 1e7
 # MISSION_COUNT has 16 bits.
 MOST_ITEMS = 65535
 
+# DO_DIGICAM_CONFIGURE and DO_DIGICAM_CONTROL have numbers in x and y, whatever their frame, as ArduPilot reads them.
+_NUMBERS_IN_PLACE = {202, 203}
+
+# The commands with a place in ArduPilot (AP_Mission::stored_in_location). It returns frame, x, y and z of others as 0.
+_PLACED_BY_ARDUPILOT = {16, 17, 18, 19, 21, 22, 30, 31, 36, 82, 84, 85, 92, 94, 179, 188, 189, 191, 195, 201}
+
+# The commands that PX4 accepts in missions without a place alone, in MAV_FRAME_MISSION. Mission Planner and MAVProxy
+# write them in the frame of the waypoints.
+_UNPLACED_BY_PX4 = {
+    *(20, 93, 112, 114, 177, 178, 187, 189, 196, 197, 200, 203, 204, 205, 206, 211, 214, 260),
+    *(530, 532, 534, 1000, 1001, 2000, 2001, 2003, 2500, 2501, 3000, 42600),
+}
+
 # Tolerances of the values read back: ArduPilot truncates an altitude to centimetres after float32 rounding; PX4
 # converts a heading to radians and back.
 _ALTITUDE_M, _HEADING_DEG = 0.015, 1e-4
@@ -62,7 +75,7 @@ def encode(mission: Mission, vehicle: Vehicle, own_home: StoredItem | None = Non
         index, problem = dangling
         raise InvalidArgument("mission", f"has item {index + 1}: {problem}")
     items = [
-        _encode_item(_renumbered(item, first - 1), seq, item_name(seq, vehicle))
+        _encode_item(_for_vehicle(_renumbered(item, first - 1), vehicle), seq, item_name(seq, vehicle))
         for seq, item in enumerate(mission.items, start=first)
     ]
     return [own_home or _encode_home(mission, vehicle), *items] if first else items
@@ -93,6 +106,17 @@ def decode(items: Sequence[StoredItem], vehicle: Vehicle) -> Mission:
         return Mission(tuple(_renumbered(item, 1) for item in decoded), (nan, nan, nan))
     home, *flown = decoded
     return Mission(tuple(flown), (home.latitude_deg, home.longitude_deg, home.altitude_m))
+
+
+def _for_vehicle(item: MissionItem, vehicle: Vehicle) -> MissionItem:
+    """The item in the frame in which the autopilot of a vehicle accepts its command."""
+    unplaced = vehicle.autopilot == Autopilot.PX4 and item.command in _UNPLACED_BY_PX4
+    return item._replace(frame=Frame.NOWHERE) if unplaced else item
+
+
+def _has_place(item: MissionItem | StoredItem) -> bool:
+    """Whether parameters 5 and 6 of an item are latitude and longitude."""
+    return item.frame in EQUIVALENT_FRAMES and item.command not in _NUMBERS_IN_PLACE
 
 
 def _renumbered(item: MissionItem, added: int) -> MissionItem:
@@ -138,11 +162,12 @@ def differences(
     if len(sent) != len(kept):
         return [f"it keeps {len(kept)} items of {len(sent)}"], cut
     for seq in range(int(keeps_home(vehicle)), len(sent)):
-        predicted = _fields(_as_stored(sent[seq], vehicle))
-        before, after = _fields(sent[seq]), _fields(kept[seq])
+        item = _with_place_kept(sent[seq], kept[seq], vehicle)
+        predicted = [_fields(stored) for stored in _as_stored(item, vehicle)]
+        before, after = _fields(item), _fields(kept[seq])
         for name in before:
             if not _equal(before[name], after[name]):
-                expected = _equal(predicted[name], after[name], _tolerance(name, vehicle))
+                expected = any(_equal(stored[name], after[name], _tolerance(name, vehicle)) for stored in predicted)
                 text = f"{item_name(seq, vehicle)} has {after[name]:.9g} for {name}, not {before[name]:.9g}"
                 (cut if expected else wrong).append(text)
     return wrong, cut
@@ -177,7 +202,7 @@ def _encode_item(item: MissionItem, seq: int, name: str) -> StoredItem:
 def _encode_place(item: MissionItem, name: str) -> tuple[int, int]:
     """Latitude and longitude in 1e-7 degrees; parameters 5 and 6 of an item without a place, with 0 for nan."""
     lat, lon = item.latitude_deg, item.longitude_deg
-    if item.frame not in EQUIVALENT_FRAMES:
+    if not _has_place(item):
         return round(lat if isfinite(lat) else 0.0), round(lon if isfinite(lon) else 0.0)
     if not (abs(lat) <= 90.0 and abs(lon) <= 360.0):
         raise InvalidArgument("mission", f"has no place on Earth in {name}: {lat:g} {lon:g}")
@@ -188,7 +213,7 @@ def _encode_place(item: MissionItem, name: str) -> tuple[int, int]:
 
 def decode_item(item: StoredItem) -> MissionItem:
     """The item with its place in degrees."""
-    scale = PER_DEGREE if item.frame in EQUIVALENT_FRAMES else 1.0
+    scale = PER_DEGREE if _has_place(item) else 1.0
     place = item.x / scale, item.y / scale, item.z
     frame = EQUIVALENT_FRAMES.get(item.frame, item.frame)
     return MissionItem(item.command, frame, item.params, *place, bool(item.autocontinue))
@@ -202,18 +227,47 @@ def _fields(item: StoredItem) -> dict[str, float]:
     return {"command": item.command, "frame": frame, **params, **place, "autocontinue": item.autocontinue}
 
 
-def _as_stored(item: StoredItem, vehicle: Vehicle) -> StoredItem:
-    """The item as the autopilot of a vehicle is known to store it."""
+def _with_place_kept(sent: StoredItem, kept: StoredItem, vehicle: Vehicle) -> StoredItem:
+    """The item sent; for ArduPilot without frame and place where it has returned 0 because its command has none."""
+    if vehicle.autopilot != Autopilot.ARDUPILOT or kept.frame != 0:
+        return sent
+    if sent.command in _NUMBERS_IN_PLACE:
+        return sent._replace(frame=0, z=0.0)
+    if sent.command not in _PLACED_BY_ARDUPILOT and kept.x == kept.y == kept.z == 0:
+        return sent._replace(frame=0, x=0, y=0, z=0.0)
+    return sent._replace(frame=0) if sent.frame == Frame.NOWHERE else sent
+
+
+def _as_stored(item: StoredItem, vehicle: Vehicle) -> list[StoredItem]:
+    """The items as which the autopilot of a vehicle may store an item."""
     if vehicle.autopilot == Autopilot.ARDUPILOT:
-        return item._replace(params=_stored_by_ardupilot(item.command, item.params), autocontinue=1)
+        stored = _stored_by_ardupilot(item.command, item.params)
+        return [item._replace(params=params, autocontinue=1) for params in stored]
     if vehicle.autopilot == Autopilot.PX4 and item.frame in EQUIVALENT_FRAMES:
-        return item._replace(params=_stored_by_px4(item.command, item.params))
-    return item
+        return [item._replace(params=_stored_by_px4(item.command, item.params))]
+    return [item]
 
 
-def _stored_by_ardupilot(command: int, params: Params) -> Params:
+def _stored_by_ardupilot(command: int, params: Params) -> list[Params]:
+    """What may be stored of parameters: of a command that is not known here, each as it is, in whole numbers, or 0."""
+    known = _known_to_ardupilot(command, params)
+    if known is not None:
+        return [known]
+    a, b, c, d = map(truncated, params)
+    return [params, (a, b, c, d), (0.0, 0.0, 0.0, 0.0)]
+
+
+def _known_to_ardupilot(command: int, params: Params) -> Params | None:
     a, b, c, d = params
     match command:
+        case 20:  # NAV_RETURN_TO_LAUNCH
+            return 0.0, 0.0, 0.0, 0.0
+        case 22 | 600:  # NAV_TAKEOFF, JUMP_TAG
+            return truncated(a), 0.0, 0.0, 0.0
+        case 177 | 601:  # DO_JUMP, DO_JUMP_TAG
+            return truncated(a), truncated(b), 0.0, 0.0
+        case MavCommand.NAV_LAND:
+            return truncated(a), 0.0, 0.0, -1.0 if d < 0.0 else 1.0
         case MavCommand.NAV_WAYPOINT:
             return 0.0, min(truncated(b), 255.0), min(truncated(c), 255.0), 0.0
         case MavCommand.NAV_LOITER_UNLIM:
@@ -227,7 +281,7 @@ def _stored_by_ardupilot(command: int, params: Params) -> Params:
             return truncated(a), 0.0, -1.0 if c < 0.0 else 1.0, float(d > 0.0)
         case MavCommand.NAV_LOITER_TO_ALT:
             return 0.0, truncated(b), 0.0, float(d > 0.0)
-    return params
+    return None
 
 
 def _stored_by_px4(command: int, params: Params) -> Params:
