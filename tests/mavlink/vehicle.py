@@ -303,6 +303,10 @@ class Faithful(Vehicle):
         self.socket.sendto(packet, self.partner_port)
 
 
+# The commands with a place in ArduPilot (AP_Mission::stored_in_location).
+STORED_IN_LOCATION = {16, 17, 18, 19, 21, 22, 30, 31, 36, 82, 84, 85, 92, 94, 179, 188, 189, 191, 195, 201}
+
+
 class Plane(Vehicle):
     """ArduPlane: its home is item 0, items are replaced one by one, values are cut, nothing can be cancelled."""
 
@@ -356,10 +360,10 @@ class Plane(Vehicle):
             178: (first, m.param2, radius, 0.0),
             189: (0.0, 0.0, 0.0, 0.0),
             203: (first, second, radius, m.param4),
-        }[m.command]
+        }.get(m.command, (m.param1, m.param2, m.param3, m.param4))
         if m.command == 203:
             return item(203, 0, params, m.x, m.y, 0.0)
-        if m.command in {20, 177, 178}:
+        if m.command not in STORED_IN_LOCATION:
             return item(m.command, 0, params, 0, 0, 0.0)
         return item(m.command, frame, params, m.x, m.y, int(m.z * 100.0) / 100.0)
 
