@@ -22,7 +22,7 @@ singles = st.floats(width=32, allow_infinity=False, min_value=-(2.0**100), max_v
 frames = st.sampled_from([Frame.ABOVE_SEA, Frame.ABOVE_HOME, Frame.ABOVE_TERRAIN])
 # Commands that have a place, and no number of another item.
 others = {*references.NUMBERS, *stored_items._UNPLACED_BY_PX4, *stored_items._NUMBERS_IN_PLACE}
-commands = st.one_of(st.integers(0, 65535).filter(lambda c: c not in others), st.sampled_from(list(MavCommand)))
+commands = st.one_of(st.integers(0, 65535), st.sampled_from(list(MavCommand))).filter(lambda c: c not in others)
 latitudes = st.integers(-900000000, 900000000).map(lambda x: x / 1e7)
 longitudes = st.integers(-1800000000, 1800000000).map(lambda x: x / 1e7)
 altitudes = st.floats(-1000.0, 50000.0, width=32)
