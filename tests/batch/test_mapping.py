@@ -76,10 +76,13 @@ def test_columns_of_users_give_what_those_of_loiter_give(kind):
 
 
 REFUSED = {
-    "another kind": ({"east_m": "hdg(rad)"}, "gives east_m the column 'hdg(rad)' in rad, but its unit must be m, km"),
-    "another kind at the end": ({"east_m": "TAS_kt"}, "in kt, but its unit must be m, km, nm, nmi or ft: 'TAS_kt"),
+    "another kind": ({"east_m": "hdg(rad)"}, "gives east_m the column 'hdg(rad)' in rad, but its unit must be m, cm"),
+    "another kind at the end": ({"east_m": "TAS_kt"}, "in kt, but its unit must be m, cm, mm, km, ft or NM: 'TAS_kt"),
     "no unit": ({"east_m": "X [cubit]"}, "the column 'X [cubit]' in cubit, but its unit must be m"),
-    "stated and wrong": ({"heading_deg": "plain [ft]"}, "the column 'plain' in ft, but its unit must be deg or rad"),
+    "stated and wrong": (
+        {"heading_deg": "plain [ft]"},
+        "the column 'plain' in ft, but its unit must be deg, rad, cdeg",
+    ),
     "no column": ({"east_m": "X_Est [ft]"}, "the column 'X_Est [ft]', which the table does not have: is it 'X_East"),
     "no quantity": ({"height_m": "plain"}, "has 'height_m', which is not one of east_m, north_m"),
 }
@@ -109,6 +112,67 @@ def test_a_unit_may_be_stated(quantity, text, name, factor):
     assert (column.name, column.factor) == (name, factor)
 
 
+# The definitions of the units, by the ends of names; MAVLink's among them.
+ENDS = {
+    "east_m": {
+        "_cm": 0.01,
+        "_mm": 0.001,
+        "_km ": 1000.0,
+        " km": 1000.0,
+        "-yd": 0.9144,
+        "_kilometers": 1000.0,
+        "_m": 1.0,
+    },
+    "heading_deg": {"_cdeg": 0.01, "_mrad": 180.0 / math.pi / 1000.0, "_°": 1.0, "_degrees": 1.0},
+    "latitude_deg": {"_degE7": 1e-7, "_e7": 1e-7},
+    "airspeed_m_s": {"_cm_s": 0.01, " cm/s": 0.01, "_fpm": 0.3048 / 60.0, "_ft_min": 0.3048 / 60.0, "_km/h": 1.0 / 3.6},
+    "max_turn_rate_deg_s": {"_cdeg_s": 0.01, " rad per s": 180.0 / math.pi},
+    "hold_s": {"_ms": 0.001, "_minutes": 60.0, "_h": 3600.0},
+}
+PLAIN = ("x_position", "x_utm", "x_gps_raw", "psi_true", "roll_rate_z", "h", "s", "x_")
+
+
+@pytest.mark.parametrize(("quantity", "end"), [(quantity, end) for quantity, ends in ENDS.items() for end in ends])
+def test_a_unit_at_the_end_of_a_name_is_converted_or_refused(quantity, end):
+    for other in ENDS:
+        if ENDS[other].get(end) is not None:
+            column = mapped_columns([f"v{end}"], {other: f"v{end}"})[other]
+            assert column.factor == pytest.approx(ENDS[other][end], rel=1e-15)
+        elif (quantity, other) not in {("heading_deg", "latitude_deg"), ("latitude_deg", "heading_deg")}:
+            with pytest.raises(InvalidArgument, match="but its unit must be"):
+                mapped_columns([f"v{end}"], {other: f"v{end}"})
+
+
+@pytest.mark.parametrize(
+    ("quantity", "name", "factor"),
+    [("east_m", "cm", 0.01), ("airspeed_m_s", "km_h", 1.0 / 3.6), ("hold_s", "min", 60.0)],
+)
+def test_a_name_may_be_a_unit_alone(quantity, name, factor):
+    assert mapped_columns([name], {quantity: name})[quantity].factor == factor
+
+
+@pytest.mark.parametrize("name", ["x_in", "x_mil", "x_hPa", "x_Hz", "x_m_s_s"])
+def test_units_that_no_quantity_has_are_refused(name):
+    for quantity in ENDS:
+        with pytest.raises(InvalidArgument, match="but its unit must be"):
+            mapped_columns([name], {quantity: name})
+
+
+@pytest.mark.parametrize("name", PLAIN)
+def test_a_plain_word_is_in_the_unit_of_the_quantity(name):
+    assert {mapped_columns([name], {quantity: name})[quantity].factor for quantity in ENDS} == {1.0}
+
+
+def test_blanks_around_the_name_of_a_column_do_not_count():
+    table = "east_m ,north_m, heading_deg,turn ,wind_speed_m_s ,wind_from_deg \n-400,120,90,ccw,5,270\n"
+    Path("in.csv").write_text(table)
+    Path("plain.csv").write_text(table.replace(" ", ""))
+    for name in ("in", "plain"):
+        loiter.batch.run(f"{name}.csv", f"{name}_out.csv", **GIVEN)
+    [found], [plain] = read(Path("in_out.csv")), read(Path("plain_out.csv"))
+    assert (found["duration_s"], found["turn"], found["status"]) == (plain["duration_s"], "ccw", "ok")
+
+
 @given(
     st.lists(st.text("xyz_[]()mftrad kn/s", max_size=12), unique=True, max_size=4), st.text("xy_[]()mft ", max_size=9)
 )
@@ -118,7 +182,7 @@ def test_a_mapping_gives_a_column_of_the_table_or_a_refusal(names, text):
     except InvalidArgument:
         return
     assert found["east_m"].name in names
-    assert found["east_m"].factor in {1.0, 1000.0, 0.3048, 1852.0}
+    assert found["east_m"].factor in {1.0, 1000.0, 0.3048, 1852.0, 0.1, 0.001}
 
 
 # Latitude and longitude of a circle, near the equator, the date line and a pole.

@@ -6,10 +6,12 @@ import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
+from math import degrees, prod
+from typing import NamedTuple
 
 from loiter.errors import InvalidArgument
 from loiter.planning.model import TURN_LIMITS
-from loiter.planning.units import ANGLES, LENGTHS, SPEEDS, TURN_RATES
+from loiter.planning.units import KNOT, MILE
 
 HEADING = "heading_deg"
 LOCAL, PLACE = ("east_m", "north_m"), ("latitude_deg", "longitude_deg")
@@ -30,35 +32,39 @@ SLOT_PHASE, SLOT_TIME = SLOT = ("slot_phase_deg", "slot_at_s")
 ENTRY = (*POSE, *PLACE, *ORBIT, *ORBIT_PLACE, AIRSPEED, *TURN_LIMITS, TURN, *WIND, *VELOCITY, *SLOT)
 KNOWN = (*ENTRY, *EXIT, *EXIT_PLACE, *LEG)
 
-TIMES = {"s": 1.0, "min": 60.0}
-
-# The units of a quantity, by the end of its name; the longest end counts.
-UNITS = {"_deg_s": TURN_RATES, "_m_s": SPEEDS, "_deg": ANGLES, "_m": LENGTHS, "_s": TIMES}
+# What a quantity measures, by the end of its name, the longest first, and the units that a message proposes.
+KINDS = {
+    "_deg_s": ("angle/time", "deg/s, rad/s or cdeg/s"),
+    "_m_s": ("length/time", "m/s, cm/s, km/h, kn, mph or ft/min"),
+    "_deg": ("angle", "deg, rad, cdeg or degE7"),
+    "_m": ("length", "m, cm, mm, km, ft or NM"),
+    "_s": ("time", "s, ms, min or h"),
+}
 
 # Quantities without a unit.
 UNITLESS = {TURN, TURNS}
 
-# Other spellings of units, as the names of columns have them.
-SPELLINGS = {
-    "meter": "m",
-    "meters": "m",
-    "metres": "m",
-    "feet": "ft",
-    "degree": "deg",
-    "degrees": "deg",
-    "degs": "deg",
-    "radians": "rad",
-    "m_s": "m/s",
-    "mps": "m/s",
-    "km_h": "km/h",
-    "kmh": "km/h",
-    "kph": "km/h",
-    "knot": "kn",
-    "knots": "kn",
-    "deg_s": "deg/s",
-    "dps": "deg/s",
-    "rad_s": "rad/s",
+# The words of units by what they measure, with their sizes in metres, degrees and seconds. Those of "other" are
+# recognised only to be refused: "in" may mean inches or what comes in, and a mil has several sizes.
+WORDS = {
+    "length": {"m meter metre": 1.0, "ft foot feet": 0.3048, "yd yard": 0.9144, "mi mile": MILE, "nm nmi": 1852.0},
+    "angle": {
+        "deg degree": 1.0,
+        "rad radian": degrees(1.0),
+        "grad gon": 0.9,
+        "arcmin": 1.0 / 60.0,
+        "arcsec": 1.0 / 3600.0,
+        "dege7 e7": 1e-7,
+        "dege5": 1e-5,
+    },
+    "time": {"s sec second": 1.0, "min minute": 60.0, "h hr hrs hour": 3600.0, "day": 86400.0},
+    "length/time": {"kn kt kts knot": KNOT, "mph": MILE / 3600.0, "mps": 1.0, "fps": 0.3048, "fpm": 0.3048 / 60.0}
+    | {"kph kmh": 1.0 / 3.6},
+    "angle/time": {"dps": 1.0, "rpm": 6.0},
+    "other": {"in inch inches mil mach fl pa hpa mbar hz": 1.0},
 }
+PREFIXED = ("m", "meter", "metre", "deg", "degree", "rad", "radian", "s", "sec", "second")
+PREFIXES = {"k kilo": 1e3, "d deci": 0.1, "c centi": 0.01, "m milli": 1e-3, "u micro": 1e-6}
 
 # Words in the names of columns that often hold a quantity.
 USUAL_WORDS = {
@@ -72,7 +78,38 @@ USUAL_WORDS = {
 
 # A unit at the end of a text: "X_East [ft]", "hdg(rad)", "TAS_kt".
 BRACKETS = re.compile(r"(.*?)\s*(?:\[([^][]*)\]|\(([^()]*)\))\s*")
-ENDING = re.compile(r".*?_([A-Za-z]+_[sh]|[A-Za-z]+)")
+SEPARATORS = re.compile(r"[\s_/.,:;|-]+(?:per[\s_]+)?")
+
+# A unit at the end of a name has up to this many words: m_s_s.
+MOST_WORDS = 3
+
+
+class Unit(NamedTuple):
+    """What a unit measures, as in `WORDS`, and its size in metres, degrees and seconds."""
+
+    kind: str
+    size: float
+
+
+def _unit_words() -> dict[str, Unit]:
+    """The units of one word, with their prefixes and plurals."""
+    units = {
+        word: Unit(kind, size)
+        for kind, sizes in WORDS.items()
+        for words, size in sizes.items()
+        for word in words.split()
+    }
+    prefixes = {prefix: size for words, size in PREFIXES.items() for prefix in words.split()}
+    prefixed = {
+        prefix + word: Unit(units[word].kind, size * units[word].size)
+        for prefix, size in prefixes.items()
+        for word in PREFIXED
+    }
+    units = prefixed | units
+    return {word + "s": unit for word, unit in units.items() if len(word) > 2} | units
+
+
+UNIT_WORDS = _unit_words()
 
 
 @dataclass(frozen=True)
@@ -90,7 +127,9 @@ def mapped_columns(names: list[str], given: Mapping[str, str]) -> dict[str, Mapp
     brackets after a name that has none, or another one, counts. Without a unit it is the quantity's own. Raises
     `InvalidArgument` for quantities and columns that do not exist and for units that do not fit.
     """
-    own = {name: MappedColumn(name) for name in KNOWN if name in set(names)}
+    # Blanks around the name of a column do not count, but a column without them is preferred.
+    found = {name.strip(): name for name in names} | {name: name for name in names}
+    own = {name: MappedColumn(found[name]) for name in KNOWN if name in found}
     return own | {quantity: _mapped_column(quantity, column, names) for quantity, column in given.items()}
 
 
@@ -115,23 +154,37 @@ def _question(close: list[str]) -> str:
 
 def _factor(quantity: str, name: str, stated: str | None) -> float:
     """The size of the unit of a column in that of a quantity; the unit is stated, or in the name of the column."""
-    known = next(units for end, units in UNITS.items() if quantity.endswith(end))
-    in_brackets, ending = BRACKETS.fullmatch(name), ENDING.fullmatch(name)
+    kind, proposed = next(each for end, each in KINDS.items() if quantity.endswith(end))
+    in_brackets = BRACKETS.fullmatch(name)
     if stated is None and in_brackets is not None:
         stated = in_brackets[2] or in_brackets[3]
-    unit = stated or (ending[1] if ending is not None else "")
-    unit = SPELLINGS.get(unit.strip().lower(), unit.strip().lower())
-    if unit in known:
-        return known[unit]
+    if not stated:
+        stated = unit_at_end(name)
     # The last word of a name that has no brackets need not be a unit.
-    if stated is not None or any(unit in units for units in UNITS.values()):
-        own, *others = sorted((unit for unit in known if "°" not in unit), key=lambda unit: known[unit] != 1.0)
+    unit = Unit(kind, 1.0) if stated is None else unit_of(SEPARATORS.split(stated.strip()))
+    if unit is None or unit.kind != kind:
         raise InvalidArgument(
             "columns",
-            f"gives {quantity} the column {name!r} in {stated or unit}, but its unit must be "
-            f"{', '.join([own, *others[:-1]])} or {others[-1]}: '{name} [{own}]' states it",
+            f"gives {quantity} the column {name!r} in {stated}, but its unit must be {proposed}: "
+            f"'{name.strip()} [{proposed.partition(',')[0]}]' states it",
         )
-    return 1.0
+    return unit.size
+
+
+def unit_of(words: list[str]) -> Unit | None:
+    """The unit of the words of a text, of which the first is divided by the others; None if they are no unit."""
+    units = [UNIT_WORDS.get(word.lower().replace("°", "deg")) for word in words]
+    found = [unit for unit in units if unit is not None]
+    if len(found) < len(words):
+        return None
+    return Unit("/".join(unit.kind for unit in found), found[0].size / prod(unit.size for unit in found[1:]))
+
+
+def unit_at_end(name: str) -> str | None:
+    """The unit that the name of a column ends in; None if there is none. A name of one letter is no unit."""
+    words = SEPARATORS.split(name.strip())
+    ends = (words[-count:] for count in range(min(MOST_WORDS, len(words)), 0, -1) if len(name.strip()) > 1)
+    return next(("/".join(end) for end in ends if unit_of(end) is not None), None)
 
 
 def likely_column(quantity: str, names: Iterable[str]) -> str | None:
