@@ -44,6 +44,15 @@ class Fenced(Vehicle):
         head = *self.partner, message.seq, frame, command, 0, autocontinue
         self.send(mavlink.MAVLink_mission_item_int_message(*head, *params, x, y, z, message.mission_type))
 
+    home = None
+
+    def tell(self, number):
+        """Where its home is, if it is set."""
+        super().tell(number)
+        if number == 242 and self.home is not None:
+            place = *(round(1e7 * degrees) for degrees in self.home), 400000
+            self.send(mavlink.MAVLink_home_position_message(*place, 0, 0, 0, (1, 0, 0, 0), 0, 0, 0))
+
 
 class Ardu(Fenced):
     autopilot = 3
@@ -59,6 +68,7 @@ class FencedPlane(GuidedPlane):
     """A plane in flight with a fence."""
 
     fence = ()
+    parameters = GuidedPlane.parameters | {"FENCE_TYPE": (4.0, 2), "FENCE_RADIUS": (300.0, 9)}
 
     on_mission_request_list, on_mission_request_int = Fenced.on_mission_request_list, Fenced.on_mission_request_int
 
@@ -144,6 +154,43 @@ def test_a_fence_that_is_none_is_one_sentence():
     with (
         flying(Fenced(FENCE[:3])) as vehicle,
         pytest.raises(LinkFailed, match="has a fence in which item 2: a polygon has 3 corners, and 2 follow"),
+    ):
+        download_fence(vehicle.connection)
+
+
+@pytest.mark.parametrize(
+    ("kind", "fence", "parameters"),
+    [
+        (Ardu, [item(5005, params=(300.0, 0.0, 0.0, 0.0), x=0, y=0)], {}),
+        (Ardu, [], {"FENCE_TYPE": (7.0, 2), "FENCE_RADIUS": (300.0, 9)}),
+        (Fenced, [], {"GF_MAX_HOR_DIST": (300.0, 9)}),
+    ],
+)
+def test_a_circle_about_home_is_a_zone(kind, fence, parameters):
+    """An item of ArduPilot's fence, and the circles that parameters of ArduPilot and PX4 switch on."""
+    vehicle = kind(fence)
+    vehicle.parameters = parameters
+    with flying(vehicle):
+        with pytest.raises(LinkFailed, match="circle about home .* is not known|where home is, is not known"):
+            download_fence(vehicle.connection, timeout_s=1.0)
+        vehicle.home = 47.1, -8.2
+        (circle,) = download_fence(vehicle.connection, timeout_s=1.0).zones
+    assert circle[1:] == (47.1, -8.2, 300.0, True)
+
+
+def test_a_circle_about_home_that_is_off_is_no_zone():
+    vehicle = Ardu([])
+    vehicle.parameters = {"FENCE_TYPE": (4.0, 2), "FENCE_RADIUS": (300.0, 9)}
+    with flying(vehicle):
+        assert download_fence(vehicle.connection) is None
+
+
+def test_an_unknown_item_of_a_fence_is_not_ignored():
+    with (
+        flying(Fenced([*FENCE, item(5006)])) as vehicle,
+        pytest.raises(
+            LinkFailed, match="has a fence in which item 6: command 5006 is not known .* may restrict the flight"
+        ),
     ):
         download_fence(vehicle.connection)
 

@@ -10,7 +10,17 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import NamedTuple, TypeVar
 
-from loiter.batch.tables.mapping import ENTRY, HEADING, LOCAL, PLACE, POSE, MappedColumn, likely_column, mapped_columns
+from loiter.batch.tables.mapping import (
+    ENTRY,
+    HEADING,
+    LOCAL,
+    PLACE,
+    POSE,
+    MappedColumn,
+    likely_column,
+    mapped_columns,
+    separator_hint,
+)
 from loiter.errors import InvalidArgument
 from loiter.planning.units import parse_number
 
@@ -73,7 +83,7 @@ def read_connections(path: Path) -> tuple[FleetVehicle, ...]:
     """
     names, records = _records(path)
     if CONNECT not in names:
-        raise _fault(path, f"it has no column {CONNECT}: each vehicle has its connection there")
+        raise _fault(path, f"it has no column {CONNECT}: each vehicle has its connection there{separator_hint(names)}")
     for name in names:
         if name not in (NAME, CONNECT, SYSTEM):
             raise _fault(path, f"it has a column {name}: those of vehicles are {NAME}, {CONNECT} and {SYSTEM}")
@@ -104,7 +114,7 @@ def _records(path: Path) -> tuple[list[str], list[tuple[int, dict[str, str]]]]:
             raise _fault(path, f"it has two columns {name!r}")
     for line, record in records:
         if len(record) != len(names):
-            raise _fault(path, f"line {line} has {len(record)} fields, the header {len(names)}")
+            raise _fault(path, f"line {line} has {len(record)} fields, the header {len(names)}{separator_hint(names)}")
     if names and not records:
         raise _fault(path, "it has no rows: each aircraft is one")
     return names, [(line, dict(zip(names, record, strict=True))) for line, record in records]
@@ -124,7 +134,7 @@ def _columns(path: Path, names: list[str], given: Mapping[str, str]) -> tuple[li
     for name in wanted:
         if name not in mapped:
             likely = likely_column(name, names)
-            hint = f"; if {likely!r} is it, give --map {name}={likely!r}" if likely else ""
+            hint = separator_hint(names) or (f"; if {likely!r} is it, give --map {name}={likely!r}" if likely else "")
             raise _fault(path, f"it has no column {name}: it needs {', '.join(wanted)}{hint}")
     for name, column in mapped.items():
         if name in ENTRY and name not in (*POSE, *PLACE):

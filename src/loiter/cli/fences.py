@@ -12,7 +12,7 @@ from rich.console import RenderableType
 
 from loiter.cli import report
 from loiter.cli.options import Metres, scene
-from loiter.errors import InvalidArgument
+from loiter.errors import InvalidArgument, LoiterError, clause
 from loiter.geo import LocalFrame
 from loiter.io.document import maneuver_values
 from loiter.planning.problem import Problem
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from loiter.fences import ClearEntry, Fence, FenceCheck, PlacedFence
+    from loiter.io.missions.items import Mission
     from loiter.io.missions.site import Site
     from loiter.mavlink.guiding.preparation import OwnFence
     from loiter.planning.leg import LegPlan
@@ -178,3 +179,43 @@ def check_fence(
             raise InvalidArgument("fence", f"cannot be used: {error}") from error
         raise
     return CheckedFence(fence, fence.check(maneuver, options.margin), found)
+
+
+class NotSent(NamedTuple):
+    """What a file has beside its mission, which is not sent: zones of a fence, and rally points."""
+
+    zones: int = 0
+    rally_points: int = 0
+
+    @property
+    def lines(self) -> list[str]:
+        """What a user must know about it."""
+        lines = []
+        if self.zones:
+            lines.append(
+                f"The file's own fence, zones: {self.zones}, is not sent: send it from your ground station. The lines and "
+                "circles of the mission stay clear of it. Not checked are the way to its first item, the turns between "
+                "lines, and loiters without a radius."
+            )
+        if self.rally_points:
+            lines.append(f"Its rally points, {self.rally_points}, are not sent either: send them from there too.")
+        return lines
+
+
+def check_own_fence(path: Path, mission: Mission) -> NotSent:
+    """What is not sent with the mission of a file; `InvalidArgument` where it enters the file's own fence."""
+    from loiter.io.missions.own_fence import mission_breach
+    from loiter.io.missions.site import read_site
+
+    site = read_site(path, "mission")
+    if site.fence is None:
+        return NotSent(0, site.rally_points)
+    try:
+        breach = mission_breach(mission, site.fence)
+    except LoiterError as error:
+        raise InvalidArgument(
+            "mission", f"file {str(path)!r}: its own fence cannot be checked, and nothing is sent: {clause(str(error))}"
+        ) from error
+    if breach:
+        raise InvalidArgument("mission", f"file {str(path)!r}: {breach} of its own fence: nothing is sent")
+    return NotSent(len(site.fence.zones), site.rally_points)

@@ -12,7 +12,7 @@ from typing import NamedTuple, TypeAlias
 from loiter.errors import OutOfRange, instance
 from loiter.fences.fence import Fence
 from loiter.fences.model import CircleZone, PolygonZone, Zone
-from loiter.geo.frame import REACH_M, LocalFrame
+from loiter.geo.frame import REACH_M, LocalFrame, degrees_of
 
 
 class PlacedCircle(NamedTuple):
@@ -26,7 +26,7 @@ class PlacedCircle(NamedTuple):
 
     def local(self, frame: LocalFrame) -> CircleZone:
         """The circle in local metres."""
-        ((east, north),) = _local(frame, [(self.latitude_deg, self.longitude_deg)])
+        ((east, north),) = _local(self.name, frame, [(self.latitude_deg, self.longitude_deg)])
         return CircleZone(self.name, east, north, self.radius_m, self.inclusion)
 
 
@@ -39,7 +39,7 @@ class PlacedPolygon(NamedTuple):
 
     def local(self, frame: LocalFrame) -> PolygonZone:
         """The polygon in local metres."""
-        return PolygonZone(self.name, tuple(_local(frame, self.corners)), self.inclusion)
+        return PolygonZone(self.name, tuple(_local(self.name, frame, self.corners)), self.inclusion)
 
 
 PlacedZone: TypeAlias = PlacedCircle | PlacedPolygon
@@ -60,11 +60,16 @@ class PlacedFence(NamedTuple):
         return Fence(tuple(zones))
 
 
-def _local(frame: LocalFrame, places: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
-    """East and north of places in degrees."""
+def _local(name: str, frame: LocalFrame, places: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
+    """East and north of the places of a zone, in degrees."""
     instance("frame", frame, LocalFrame)
     latitudes, longitudes = zip(*places, strict=True)
     east_m, north_m = frame.to_local(latitudes, longitudes)
     if (east_m != east_m).any():
-        raise OutOfRange(f"the fence is more than {REACH_M / 1000.0:g} km from the circle: it cannot be checked")
+        i = int((east_m != east_m).argmax())
+        corner = f"corner {i + 1} of " if len(places) > 1 else ""
+        raise OutOfRange(
+            f"the fence cannot be checked: {corner}the zone {name!r}, at {degrees_of(*places[i])}, is more than "
+            f"{REACH_M / 1000.0:g} km from {degrees_of(frame.latitude_deg, frame.longitude_deg)}"
+        )
     return list(zip(east_m.tolist(), north_m.tolist(), strict=True))

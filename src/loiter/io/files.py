@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from math import isnan
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from loiter.errors import InvalidArgument, file_path, instance
 from loiter.geo.frame import LocalFrame
@@ -17,18 +17,25 @@ from loiter.io.maps.kml import kml
 from loiter.io.maps.table import table
 from loiter.io.maps.track import step_counts, vertices
 from loiter.io.missions.altitudes import MEAN_SEA_LEVEL, AltitudeDatum, AltitudeReference
+from loiter.io.missions.fences import fence_document
 from loiter.io.missions.items import Autopilot, Mission
 from loiter.io.missions.mission import mission
 from loiter.io.missions.qgcplan import qgcplan, read_qgcplan
 from loiter.io.missions.site import Site
 from loiter.io.missions.wpl import MARK, read_wpl, wpl
 from loiter.io.reading import Source
+from loiter.lazy import LazyModule
 from loiter.planning.maneuver import Maneuver
 from loiter.writing import Format, file_format, write_content
 
+if TYPE_CHECKING:
+    from loiter import fences
+else:
+    fences = LazyModule("loiter.fences")
+
 
 class SaveArguments(NamedTuple):
-    """The arguments of `save` that determine what a file contains."""
+    """The arguments of `save` that determine what a file contains; a `fence` replaces that of the site."""
 
     maneuver: Maneuver
     frame: LocalFrame | None
@@ -40,6 +47,7 @@ class SaveArguments(NamedTuple):
     along_path: bool = False
     site: Site | None = None
     name: str = ""
+    fence: fences.PlacedFence | None = None
 
 
 def check_format(path: str | Path) -> None:
@@ -172,6 +180,8 @@ def _above_sea_m(arguments: SaveArguments) -> float | None:
 
 def _plan(ending: str, arguments: SaveArguments) -> bytes:
     fence = None if arguments.site is None else arguments.site.fence_document
+    if arguments.fence is not None:
+        fence = fence_document(arguments.fence)
     airspeed_m_s = arguments.maneuver.aircraft.airspeed_m_s
     return qgcplan(_mission(ending, arguments), arguments.autopilot, airspeed_m_s, fence)
 

@@ -33,6 +33,7 @@ from loiter.batch.tables.mapping import (
     MappedColumn,
     likely_column,
     mapped_columns,
+    separator_hint,
 )
 from loiter.errors import InvalidArgument, instance, not_negative
 from loiter.geo import LocalFrame
@@ -364,7 +365,7 @@ def _check_names(argument: str, names: list[str], meaning: Columns) -> None:
 
 def _proposal(absent: list[str], names: list[str], options: SharedValues, *, text: bool) -> str:
     """What to do about columns of the pose that are absent: which columns may hold them, or what the table has."""
-    separator = _separator(names)
+    separator = separator_hint(names)
     if separator:
         return separator
     places = [likely_column(name, names) for name in PLACE]
@@ -377,17 +378,6 @@ def _proposal(absent: list[str], names: list[str], options: SharedValues, *, tex
         return f"; if that is it, map {', '.join(f'{name}={column!r}' for name, column in likely.items())}"
     question = ": is the first line a header?" if text else ""
     return f"; its columns are {', '.join(names[:LISTED])}{', ...' if len(names) > LISTED else ''}{question}"
-
-
-def _separator(names: list[str]) -> str:
-    """A sentence on a header whose fields are separated by something else than commas; "" for others."""
-    separators = {";": "semicolons", "\t": "tabs", "|": "vertical bars"}
-    for separator, described in separators.items():
-        if len(names) == 1 and separator in names[0]:
-            recipe = f'pandas.read_csv("in.csv", sep={separator!r}, decimal=",").to_csv("out.csv", index=False)'
-            problem = f"its fields are separated by {described}: they must be separated by commas"
-            return f"; {problem}, for example by {recipe}"
-    return ""
 
 
 class _Given(NamedTuple):

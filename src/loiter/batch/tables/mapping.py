@@ -197,3 +197,14 @@ def likely_column(quantity: str, names: Iterable[str]) -> str | None:
         return alike[close[0]]
     usual = set(USUAL_WORDS.get(quantity, ()))
     return next((name for name in free if usual & set(re.split("[^a-z]+", name.lower()))), None)
+
+
+def separator_hint(names: list[str]) -> str:
+    """A sentence on a header whose fields are separated by something else than commas; "" for others."""
+    separators = {";": "semicolons", "\t": "tabs", "|": "vertical bars"}
+    for separator, described in separators.items():
+        if len(names) == 1 and separator in names[0]:
+            recipe = f'pandas.read_csv("in.csv", sep={separator!r}, decimal=",").to_csv("out.csv", index=False)'
+            problem = f"its fields are separated by {described}: they must be separated by commas"
+            return f"; {problem}, for example by {recipe}"
+    return ""

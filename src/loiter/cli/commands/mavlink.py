@@ -17,7 +17,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
 
 import loiter
 from loiter.cli import report, vehicles
-from loiter.cli.fences import FenceOptions, check_fence
+from loiter.cli.fences import FenceOptions, NotSent, check_fence, check_own_fence
 from loiter.cli.options import (
     Fit,
     Json,
@@ -122,7 +122,7 @@ def upload(
     options = (pose, circle, uav, air, waypoints, fence)
     to_send: Mission | Callable[[int], Mission]
     plan: dict[str, object] = {}
-    own_loiter = ""
+    own_loiter, not_sent = "", NotSent()
     if mission is None:
         planned = _plan_mission(*options, fit=fit)
         own_loiter = "" if waypoints.along_path else own_loiter_remark(planned.maneuver)
@@ -133,6 +133,8 @@ def upload(
         raise InvalidArgument("mission", "FILE is sent as it is: options of a scene have no effect with it")
     else:
         to_send = loiter.io.read_mission(mission)
+        not_sent = check_own_fence(mission, to_send)
+        plan = {"not_sent": not_sent._asdict()}
     with _progress_bars() as on_progress:
         summary = loiter.mavlink.upload(
             to_send,
@@ -154,7 +156,7 @@ def upload(
     ]
     lines += ["It flies the mission."] if summary.started else []
     lines += [own_loiter] if own_loiter and summary.autopilot == Autopilot.ARDUPILOT.described else []
-    report.write(*lines, *summary.cut, *summary.remarks)
+    report.write(*lines, *summary.cut, *summary.remarks, *not_sent.lines)
 
 
 class PlannedMission(NamedTuple):

@@ -178,6 +178,7 @@ def plan(
         autopilot=target,
         along_path=along_path or clear is not None,
         site=site,
+        fence=fenced.placed if fenced and fence.fence else None,
     )
     # Files are written before pictures: they have more requirements, and if one fails, no picture is left.
     wanted.write(lambda path: file_content(path, written))

@@ -8,13 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from enum import IntEnum
+from math import remainder
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from loiter.errors import LoiterError, file_path
 from loiter.io.missions import qgcplan
-from loiter.io.missions.items import MissionItem
-from loiter.io.missions.limits import check_place
+from loiter.io.missions.items import MavCommand, MissionItem
+from loiter.io.missions.limits import check_place, place_problem
 from loiter.io.missions.wpl import MARK, read_items
 from loiter.io.reading import Source, shown
 from loiter.lazy import LazyModule
@@ -24,6 +25,9 @@ if TYPE_CHECKING:
     from loiter.fences import places as placed
 else:
     model, placed = LazyModule("loiter.fences.model"), LazyModule("loiter.fences.places")
+
+# MAVLink's MAV_CMD_NAV_RALLY_POINT.
+RALLY_POINT = 5100
 
 # The versions of QGroundControl's fence, and of its circles and polygons.
 FENCE_VERSION, AREA_VERSION = 2, 1
@@ -37,11 +41,19 @@ class FenceCommand(IntEnum):
     POLYGON_EXCLUSION = 5002
     CIRCLE_INCLUSION = 5003
     CIRCLE_EXCLUSION = 5004
+    HOME_CIRCLE_INCLUSION = 5005
 
 
-POLYGONS = {FenceCommand.POLYGON_INCLUSION, FenceCommand.POLYGON_EXCLUSION}
-CIRCLES = {FenceCommand.CIRCLE_INCLUSION, FenceCommand.CIRCLE_EXCLUSION}
-INCLUSIONS = {FenceCommand.POLYGON_INCLUSION, FenceCommand.CIRCLE_INCLUSION}
+CIRCLES = {FenceCommand.CIRCLE_INCLUSION, FenceCommand.CIRCLE_EXCLUSION, FenceCommand.HOME_CIRCLE_INCLUSION}
+INCLUSIONS = {FenceCommand.POLYGON_INCLUSION, FenceCommand.CIRCLE_INCLUSION, FenceCommand.HOME_CIRCLE_INCLUSION}
+
+# What restricts no flight among the items of a fence: home, which may be there twice, the return point, rally points.
+UNRESTRICTING = {MavCommand.NAV_WAYPOINT, FenceCommand.RETURN_POINT, RALLY_POINT}
+
+# The members of QGroundControl's fence and of its areas. Others that are lists or objects may be zones, or their holes.
+FENCE_MEMBERS = {"circles", "polygons", "breachReturn"}
+AREA_MEMBERS = {"circle", "polygon"}
+CIRCLE_MEMBERS = {"center"}
 
 # Says what is wrong with an item: the error to raise for a sentence.
 Fault = Callable[[str], LoiterError]
@@ -57,10 +69,8 @@ def read_fence(path: str | Path, argument: str = "fence") -> placed.PlacedFence:
     source = Source(argument, Path(file_path("path", path)))
     text = source.text()
     if text.startswith(MARK):
-        numbered = [(where, item) for where, item in read_items(source, text) if item.command in tuple(FenceCommand)]
-        for where, item in numbered:
-            check_place(source, where, item.latitude_deg, item.longitude_deg, 0.0)
-        zones = list(zones_of(numbered, source.fault))
+        numbered = read_items(source, text)
+        zones = list(zones_of(numbered, source.fault, _home(numbered[0][1]))) if _has_fence(numbered) else []
     elif text.lstrip().startswith("{"):
         zones = plan_zones(source, qgcplan.read_plan(source, text).get("geoFence"))
     else:
@@ -78,7 +88,10 @@ def plan_zones(source: Source, fence: Any) -> list[placed.PlacedZone]:
     if fence is None:
         return []
     qgcplan.kind(source, "geoFence", fence, dict, "an object")
+    if not any(value for name, value in fence.items() if name != "version"):
+        return []  # without zones any version means the same
     qgcplan.check_version(source, "the version of geoFence", fence, FENCE_VERSION)
+    _check_members(source, "geoFence", fence, FENCE_MEMBERS)
     polygons = [_polygon(source, number, area) for number, area in _areas(source, fence, "polygons")]
     circles = [_circle(source, number, area) for number, area in _areas(source, fence, "circles")]
     return [*polygons, *circles]
@@ -110,7 +123,10 @@ def fence_document(fence: placed.PlacedFence) -> dict[str, Any]:
 def _clockwise(corners: Sequence[tuple[float, float]]) -> Sequence[tuple[float, float]]:
     """The corners of a polygon, latitude and longitude, in clockwise order, from the same first one."""
     pairs = zip(corners, [*corners[1:], corners[0]], strict=True)
-    twice_area = sum((lon - after_lon) * (lat + after_lat) for (lat, lon), (after_lat, after_lon) in pairs)
+    # An edge is less than half round the Earth, also where it crosses the meridian of 180 degrees.
+    twice_area = sum(
+        remainder(lon - after_lon, 360.0) * (lat + after_lat) for (lat, lon), (after_lat, after_lon) in pairs
+    )
     return [corners[0], *reversed(corners[1:])] if twice_area > 0.0 else corners
 
 
@@ -121,12 +137,21 @@ def _areas(source: Source, fence: dict[str, Any], name: str) -> Iterator[tuple[i
         qgcplan.check_version(
             source, f"{where}: version", qgcplan.kind(source, where, area, dict, "an object"), AREA_VERSION
         )
+        _check_members(source, where, area, AREA_MEMBERS)
         yield number, area
+
+
+def _check_members(source: Source, where: str, document: dict[str, Any], known: set[str]) -> None:
+    """Raise `InvalidArgument` for a member that is not known and may have zones or holes in it."""
+    for name, value in document.items():
+        if name not in known and value and isinstance(value, list | dict):
+            raise source.fault(f"{where} has {shown(name)}, which is not known and may restrict the flight")
 
 
 def _circle(source: Source, number: int, area: dict[str, Any]) -> placed.PlacedCircle:
     where = f"geoFence: circle {number}"
     circle = qgcplan.kind(source, where, area.get("circle"), dict, "an object")
+    _check_members(source, where, circle, CIRCLE_MEMBERS)
     latitude, longitude = _place(source, where, circle.get("center"))
     radius_m = _radius_m(qgcplan.number(source, f"{where}: radius", circle.get("radius")), where, source.fault)
     return placed.PlacedCircle(f"circle {number}", latitude, longitude, radius_m, _inclusion(source, where, area))
@@ -155,20 +180,24 @@ def _inclusion(source: Source, where: str, area: dict[str, Any]) -> bool:
 # Fence items
 
 
-def zones_of(items: Iterable[tuple[str, MissionItem]], fault: Fault) -> Iterator[placed.PlacedZone]:
-    """The zones of fence items, each with its place in the file or on the vehicle; the return point is passed over.
+def zones_of(
+    items: Iterable[tuple[str, MissionItem]], fault: Fault, home: tuple[float, float] | None = None
+) -> Iterator[placed.PlacedZone]:
+    """The zones of fence items, each with its place in the file or on the vehicle; what restricts nothing is omitted.
 
-    Raises what `fault` makes of a sentence for a polygon whose number of corners is not that of its items.
+    `home` is the latitude and longitude of home, None if that is not known. Raises what `fault` makes of a sentence for
+    an item that is not known, a place that is not on Earth, a polygon whose number of corners is not that of its items,
+    and a circle about a home that is not known.
     """
-    left = [(where, item) for where, item in items if item.command != FenceCommand.RETURN_POINT]
+    left = [(where, item) for where, item in items if item.command not in UNRESTRICTING]
+    for where, item in left:
+        _check_item(where, item, fault)
     polygons = circles = 0
     while left:
         where, item = left[0]
         if item.command in CIRCLES:
             circles += 1
-            radius_m = _radius_m(item.params[0], where, fault)
-            inclusion = item.command in INCLUSIONS
-            yield placed.PlacedCircle(f"circle {circles}", item.latitude_deg, item.longitude_deg, radius_m, inclusion)
+            yield _item_circle(f"circle {circles}", where, item, home, fault)
             left = left[1:]
         else:
             polygons += 1
@@ -178,11 +207,40 @@ def zones_of(items: Iterable[tuple[str, MissionItem]], fault: Fault) -> Iterator
             left = left[count:]
 
 
+def _has_fence(items: Iterable[tuple[str, MissionItem]]) -> bool:
+    """Whether any of the items of a file is one of a fence."""
+    return any(item.command in tuple(FenceCommand) for _, item in items)
+
+
+def _home(first: MissionItem) -> tuple[float, float] | None:
+    """The home in the first item of a file; None where there is none, or it is not set (0 N 0 E)."""
+    place = first.latitude_deg, first.longitude_deg
+    return place if first.command == MavCommand.NAV_WAYPOINT and any(place) else None
+
+
+def _check_item(where: str, item: MissionItem, fault: Fault) -> None:
+    """Raise the fault of an item that is not known, or whose place is not on Earth."""
+    if item.command not in tuple(FenceCommand):
+        raise fault(f"{where}: command {item.command} is not known as an item of a fence: it may restrict the flight")
+    if problem := place_problem(item.latitude_deg, item.longitude_deg, 0.0):
+        raise fault(f"{where}: {problem}")
+
+
+def _item_circle(
+    name: str, where: str, item: MissionItem, home: tuple[float, float] | None, fault: Fault
+) -> placed.PlacedCircle:
+    center: tuple[float, float] | None = item.latitude_deg, item.longitude_deg
+    if item.command == FenceCommand.HOME_CIRCLE_INCLUSION:
+        center = home
+    if center is None:
+        raise fault(f"{where}: it is a circle about home (command {item.command}), and where home is, is not known")
+    radius_m = _radius_m(item.params[0], where, fault)
+    return placed.PlacedCircle(name, *center, radius_m, item.command in INCLUSIONS)
+
+
 def _corner_count(items: Sequence[tuple[str, MissionItem]], fault: Fault) -> int:
     """The number of corners of the polygon with which items begin."""
     where, first = items[0]
-    if first.command not in POLYGONS:
-        raise fault(f"{where}: command {first.command} is no item of a fence")
     count = first.params[0]
     if not count >= model.LEAST_CORNERS or count != int(count):
         raise fault(f"{where}: a polygon has {count:g} corners: it needs {model.LEAST_CORNERS} at least")

@@ -13,6 +13,10 @@ from loiter.io.reading import Source
 MAX_COUNT = 65535
 MAX_COMMAND = 65535
 
+# MAVLink's commands of fences and rally points, MAV_CMD_NAV_FENCE_* and MAV_CMD_NAV_RALLY_POINT, which are transferred
+# apart from missions.
+NO_MISSION = range(5000, 5101)
+
 # ArduPilot refuses altitudes beyond 83 km (LOCATION_ALT_MAX_M).
 HIGHEST_ITEM_M = 83_000.0
 
@@ -23,7 +27,9 @@ def truncated(value: float) -> float:
 
 
 def checked_item(source: Source, where: str, item: MissionItem) -> MissionItem:
-    """The item, in one of the frames of `Frame`, if its frame is known and its place is on Earth."""
+    """The item, in one of the frames of `Frame`, if it is one of a mission with a known frame and a place on Earth."""
+    if item.command in NO_MISSION:
+        raise source.fault(f"{where}: command {item.command} is an item of a fence or a rally point, not of a mission")
     if item.frame == Frame.NOWHERE:
         return item
     if item.frame not in EQUIVALENT_FRAMES:
@@ -35,13 +41,20 @@ def checked_item(source: Source, where: str, item: MissionItem) -> MissionItem:
 
 def check_place(source: Source, where: str, latitude_deg: float, longitude_deg: float, altitude_m: float) -> None:
     """Raise `InvalidArgument` for latitudes, longitudes and altitudes out of range, and for those that are nan."""
+    if problem := place_problem(latitude_deg, longitude_deg, altitude_m):
+        raise source.fault(f"{where}: {problem}")
+
+
+def place_problem(latitude_deg: float, longitude_deg: float, altitude_m: float) -> str:
+    """What is out of range in a place, or nan, in words; otherwise empty."""
     for name, value, most, unit in (
         ("latitude", latitude_deg, 90.0, "degrees"),
         ("longitude", longitude_deg, 180.0, "degrees"),
         ("altitude", altitude_m, HIGHEST_ITEM_M, "metres"),
     ):
         if not abs(value) <= most:
-            raise source.fault(f"{where}: the {name} is {value:g}: it must be from {-most:g} to {most:g} {unit}")
+            return f"the {name} is {value:g}: it must be from {-most:g} to {most:g} {unit}"
+    return ""
 
 
 def check_home(source: Source, where: str, home: tuple[float, float, float]) -> None:

@@ -20,6 +20,9 @@ FIXED_WING = 1  # MAV_TYPE_FIXED_WING
 
 LONGEST_INTEGER = 20
 
+# The types of GeoJSON's objects that are not geometries, and of geometries that may be zones.
+GEOJSON = {"FeatureCollection", "Feature", "GeometryCollection", "Polygon", "MultiPolygon", "LineString", "Point"}
+
 # QGroundControl's AltitudeMode of each frame; 0 means that the items of a plan differ.
 ALTITUDE_MODES = {Frame.ABOVE_SEA: 2, Frame.ABOVE_HOME: 1, Frame.ABOVE_TERRAIN: 4}
 
@@ -71,6 +74,9 @@ def read_document(source: Source, text: str) -> dict[str, Any]:
 def read_plan(source: Source, text: str) -> dict[str, Any]:
     """The JSON document of a plan, whatever it has in it. Raises `InvalidArgument`."""
     document = _parsed(source, text)
+    if "fileType" not in document:
+        what = "it is GeoJSON" if document.get("type") in GEOJSON else "it has no fileType"
+        raise source.fault(f"{what}, and no plan of QGroundControl")
     if document.get("fileType") != "Plan":
         raise source.fault(f"fileType is {shown(document.get('fileType'))}: it must be 'Plan'")
     check_version(source, "version", document, 1)
@@ -97,6 +103,13 @@ def items_of(source: Source, document: dict[str, Any], commands: Set[int]) -> It
         if isinstance(item, dict) and item.get("type") == "SimpleItem" and item.get("command") in commands:
             where = f"item {number}"
             yield number, where, _item(source, where, item)[1]
+
+
+def complex_items(document: dict[str, Any]) -> Iterator[str]:
+    """The items that `simple_items` passes over, in words: "item 2, 'survey'"."""
+    for number, item in enumerate(document["mission"]["items"], start=1):
+        if isinstance(item, dict) and item.get("type") != "SimpleItem":
+            yield f"item {number}, {shown(item.get('complexItemType', item.get('type')))}"
 
 
 def _items(source: Source, document: dict[str, Any]) -> Iterator[tuple[int, Any]]:

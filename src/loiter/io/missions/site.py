@@ -40,13 +40,16 @@ class Site(NamedTuple):
 
     What is not known of the home is nan; so is a home at 0 N 0 E, by which ground stations mean that it is not set.
     `fence` is None where there are no zones. `fence_document` is the fence as QGroundControl wrote it, which is kept
-    when a plan is saved; None without one.
+    when a plan is saved; None without one. `rally_points` is how many the file has,
+    `complex_items` what else than simple items its mission has, in words.
     """
 
     circles: tuple[MissionCircle, ...]
     home: tuple[float, float, float]
     fence: fences.PlacedFence | None = None
     fence_document: dict[str, Any] | None = None
+    rally_points: int = 0
+    complex_items: tuple[str, ...] = ()
 
     @property
     def home_altitude_m(self) -> float | None:
@@ -75,7 +78,12 @@ def read_site(path: str | Path, argument: str = "mission") -> Site:
     items = qgcplan.items_of(source, document, set(signs.COMMANDS))
     circles = tuple(_circles(source, items, document["mission"].get("firmwareType")))
     fence = fences.PlacedFence(tuple(zones)) if zones else None
-    return Site(circles, _known_home(qgcplan.read_home(source, document)), fence, fence_document)
+    rally = document.get("rallyPoints")
+    points = rally.get("points") if isinstance(rally, dict) else None
+    count = len(points) if isinstance(points, list) else 0
+    complex_items = tuple(qgcplan.complex_items(document))
+    home = _known_home(qgcplan.read_home(source, document))
+    return Site(circles, home, fence, fence_document, count, complex_items)
 
 
 def _circles(
