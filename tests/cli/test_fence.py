@@ -7,6 +7,7 @@ import pytest
 import loiter
 from loiter.cli.app import main
 from loiter.geo import LocalFrame
+from loiter.io import read_fence
 
 FRAME = LocalFrame(47.11, 8.23)
 UAV = "--airspeed 18 --bank 35"
@@ -106,6 +107,22 @@ def test_files_have_the_clear_entry(beside_a_mast, capsys, tmp_path):
     assert "".join(line["properties"]["letter"] for line in lines) == entry["word"]
     assert len(json.loads(mission.read_text())["mission"]["items"]) > len(entry["segments"])
     assert 'id="stay out' in picture.read_text()
+
+
+def test_a_plan_has_the_fence_that_was_checked(fence, capsys, tmp_path):
+    """That of --fence, also where the mission of --orbit-from has another one."""
+    own, checked, saved = fence((0.0, 0.0, 9000.0, True)), tmp_path / "checked.plan", tmp_path / "saved.plan"
+    own.rename(tmp_path / "own.plan")
+    fence((0.0, 0.0, 3000.0, True), (900.0, 0.0, 50.0, False)).rename(checked)
+    document = json.loads((tmp_path / "own.plan").read_text())
+    assert run(f"plan {SCENE} --altitude 900 --fence {checked} --save {saved}", capsys)[0] == 0
+    assert read_fence(saved) == read_fence(checked)
+    existing = json.loads(saved.read_text()) | {"geoFence": document["geoFence"]}
+    (tmp_path / "existing.plan").write_text(json.dumps(existing))
+    scene = SCENE.replace("--orbit-lla 47.11 8.23 120", f"--orbit-from {tmp_path / 'existing.plan'}")
+    for options, kept in ((f"--fence {checked}", checked), ("", tmp_path / "existing.plan")):
+        assert run(f"plan {scene} --altitude 900 {options} --save {saved}", capsys)[0] == 0
+        assert read_fence(saved) == read_fence(kept)
 
 
 def test_a_flight_stays_clear(beside_a_mast, capsys, tmp_path):

@@ -97,6 +97,14 @@ def test_pictures(table, shown):
             "east_m,north_m,hdg\n1,2,3\n",
             "it has no column heading_deg: it needs east_m, north_m, heading_deg; if 'hdg'",
         ),
+        (
+            "east_m;north_m;heading_deg\n1;2;3\n",
+            "it has no column east_m: it needs east_m, north_m, heading_deg; its f",
+        ),
+        (
+            "east_m;north_m;heading_deg\n1,5;2;3\n",
+            "line 2 has 2 fields, the header 1; its fields are separated by semi",
+        ),
         (ROWS + "x,1,2\n", "line 5 has 3 fields, the header 4"),
         (ROWS + "x,1,2,east\n", "line 5 has 'east' in the column heading_deg, which is no number"),
         (ROWS + "mast,1,2,3\n", "two aircraft have the name 'mast'"),

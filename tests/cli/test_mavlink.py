@@ -1,5 +1,6 @@
 """`loiter upload` and `loiter watch`: what they print, and how they end."""
 
+import json
 import re
 
 import pytest
@@ -133,6 +134,65 @@ def test_a_file_is_sent_as_it_is(shown, tmp_path, ending):
     assert [(kept[0], kept[2]) for kept in vehicle.mission] == [(item.command, item.params) for item in wanted.items]
     assert vehicle.mission[-1].radius_m == 120.0
     assert "It had none before." in text
+
+
+@pytest.fixture
+def fenced_file(shown, tmp_path):
+    """Writes a plan with a loiter of 120 m and a fence about its centre of one radius, to stay inside or outside."""
+
+    def written(radius_m, *, inclusion):
+        path = tmp_path / "fenced.plan"
+        shown(f"plan {PLACED} --turn cw --save {path}")
+        circle = {"circle": {"center": [47.11, 8.23], "radius": radius_m}, "inclusion": inclusion, "version": 1}
+        document = json.loads(path.read_text())
+        document["geoFence"]["circles"] = [circle]
+        document["rallyPoints"]["points"] = [[47.11, 8.23, 100.0]]
+        path.write_text(json.dumps(document))
+        return path
+
+    return written
+
+
+@pytest.mark.parametrize("vehicle", [Vehicle(), Plane([Plane.home, *OLD[1:]])])
+def test_a_file_that_enters_its_own_fence_is_not_sent(ended, fenced_file, vehicle):
+    old = list(vehicle.mission)
+    for radius_m, inclusion, problem in ((400.0, False, "enters the zone"), (119.0, True, "leaves the inclusion zone")):
+        path = fenced_file(radius_m, inclusion=inclusion)
+        with flying(vehicle):
+            status, out, err = ended(f"upload {path} --connect {vehicle.connection}")
+        assert (status, out) == (2, "")
+        assert f"item 1 {problem} 'circle 1' of its own fence: nothing is sent" in err
+    assert vehicle.mission == old
+    assert not vehicle.heard
+
+
+def test_what_is_not_sent_of_a_file_is_said(shown, fenced_file):
+    path = fenced_file(9000.0, inclusion=True)
+    with flying(Vehicle([])) as vehicle:
+        text = shown(f"upload {path} --connect {vehicle.connection}")
+        assert "The file's own fence, zones: 1, is not sent: send it from your ground station." in text
+        assert "Its rally points, 1, are not sent either" in text
+        document = json.loads(shown(f"upload {path} --connect {vehicle.connection} --json"))
+    assert document["not_sent"] == {"zones": 1, "rally_points": 1}
+
+
+@pytest.mark.parametrize(
+    ("text", "problem"),
+    [
+        (
+            "QGC WPL 110\n0 1 0 16 0 0 0 0 47 8 0 1\n1 0 0 5001 3 0 0 0 47 8 0 1\n",
+            "line 3: command 5001 is an item of a",
+        ),
+        ("47 8\n47 8\n47 9\n48 9\n47 8\n", "it is neither a QGroundControl plan nor a QGC WPL 110 file"),
+    ],
+)
+def test_a_fence_is_not_sent_as_a_mission(ended, tmp_path, text, problem):
+    path = tmp_path / "fence.txt"
+    path.write_text(text)
+    with flying(Vehicle()) as vehicle:
+        status, _, err = ended(f"upload {path} --connect {vehicle.connection}")
+    assert (status, vehicle.mission) == (2, OLD)
+    assert problem in err
 
 
 @pytest.mark.parametrize(

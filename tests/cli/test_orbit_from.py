@@ -126,7 +126,15 @@ def first_area(kind, key, value):
         (first_area("polygons", "polygon", [[47, 8], [47, 9]]), "geoFence: polygon 1: it has 2 corners"),
         (first_area("polygons", "polygon", [[47], [47, 9], [48, 8]]), "geoFence: polygon 1 is not a list of 2 numbers"),
         (lambda d: d["mission"].update(plannedHomePosition=[47]), "plannedHomePosition is not a list of 3 numbers"),
-        (lambda d: d["mission"].update(items=d["mission"]["items"][:1]), "its mission has no loiter"),
+        (
+            lambda d: d["mission"].update(items=d["mission"]["items"][:1]),
+            "its mission has no loiter with a place, and items of these kinds are not read: item 1, 'survey'",
+        ),
+        (lambda d: d["mission"].update(items=d["mission"]["items"][1:2]), "its mission has no loiter with a place"),
+        (
+            lambda d: d["mission"]["items"][-1]["params"].__setitem__(slice(4, 6), [0, 0]),
+            "its mission has no loiter with a place",
+        ),
     ],
 )
 def test_what_cannot_be_read_is_named(existing, refusal, change, problem):

@@ -181,17 +181,13 @@ class OrbitOptions:
 
     def _first_circle(self) -> tuple[float, float, float | None, Turn | None]:
         assert self.site is not None  # it is the only circle given
-        where = f"is {str(self.orbit_from)!r}:"
         if not self.site.circles:
             others = ", ".join(self.site.complex_items)
-            unread = f" among its simple items, and others are not read: {others}" if others else ""
-            raise InvalidArgument("orbit_from", f"{where} its mission has no loiter{unread}")
-        first, *_ = self.site.circles
-        if first.latitude_deg == first.longitude_deg == 0.0:
+            unread = f", and items of these kinds are not read: {others}" if others else ""
             raise InvalidArgument(
-                "orbit_from",
-                f"{where} the loiter of item {first.item} is at 0 N 0 E, which means wherever the vehicle is then",
+                "orbit_from", f"is {str(self.orbit_from)!r}: its mission has no loiter with a place{unread}"
             )
+        first, *_ = self.site.circles
         return first.latitude_deg, first.longitude_deg, first.radius_m, first.turn
 
     def _turn(self, otherwise: Turn | None) -> Turn:

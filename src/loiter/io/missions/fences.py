@@ -233,7 +233,7 @@ def _item_circle(
     if item.command == FenceCommand.HOME_CIRCLE_INCLUSION:
         center = home
     if center is None:
-        raise fault(f"{where}: it is a circle about home (command {item.command}), and where home is, is not known")
+        raise fault(f"{where}: it is a circle about home (command {item.command}), and the home is not known")
     radius_m = _radius_m(item.params[0], where, fault)
     return placed.PlacedCircle(name, *center, radius_m, item.command in INCLUSIONS)
 
