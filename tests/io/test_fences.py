@@ -83,8 +83,8 @@ def test_a_fence_is_read(tmp_path, name, text, zones):
         (json.dumps({"fileType": "Plan", "version": 1}), "it has no fence"),
         (json.dumps({"fileType": "Plan", "version": 2}), "version is 2: only 1 is read"),
         (json.dumps({"fileType": "Mission"}), "fileType is 'Mission': it must be 'Plan'"),
-        (json.dumps({"type": "FeatureCollection", "features": []}), "it is GeoJSON, and no plan of QGroundControl"),
-        (json.dumps({"mission": {}}), "it has no fileType, and no plan of QGroundControl"),
+        (json.dumps({"type": "FeatureCollection", "features": []}), "it is no plan of QGroundControl: it is GeoJSON"),
+        (json.dumps({"mission": {}}), "it is no plan of QGroundControl: it has no fileType"),
         # Older versions without a zone, as QGroundControl wrote them.
         (fenced({"polygon": [], "version": 1}), "it has no fence"),
         (fenced({"polygons": []}), "it has no fence"),

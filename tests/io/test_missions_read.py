@@ -398,7 +398,7 @@ def test_a_file_that_pymavlink_saved_is_read(tmp_path):
         ("[]", "it is neither"),
         ("\x00" * 50, "it is neither"),
         ("{", "it is not JSON, expecting property name .* in line 1"),
-        ("{}", "fileType is None: it must be 'Plan'"),
+        ("{}", "it is no plan of QGroundControl: it has no fileType"),
         ('{"a": 1, "a": 2}', "the key 'a' occurs twice in one object"),
         ('{"a": NaN}', "NaN is not a number in JSON"),
         ('{"a": -Infinity}', "-Infinity is not a number in JSON"),

@@ -224,6 +224,13 @@ def test_a_plan_that_is_dropped_gives_circle_aircraft_and_altitude(page, tmp_pat
 LOITER = {"type": "SimpleItem", "command": 17, "frame": 3, "params": [0, 0, 80, 0, 47.1, 8.2, 100]}
 
 
+RING = {"circle": {"center": [47.1, 8.2], "radius": 500.0}, "inclusion": True, "version": 1}
+
+
+def plan_with_fence(**fence):
+    return json.dumps({"fileType": "Plan", "mission": {"items": [LOITER]}, "geoFence": fence})
+
+
 NO_PLANS = {
     "no json": "This file is no plan of QGroundControl: it is not JSON.",
     "null": "This file is no plan of QGroundControl.",
@@ -231,6 +238,13 @@ NO_PLANS = {
     json.dumps({"fileType": "Fence"}): "This file is no plan of QGroundControl.",
     json.dumps({"fileType": "Plan", "mission": {"items": [LOITER | {"params": [0, 0, None, 0, 47.1, 8.2, 9]}]}}): (
         "The loiter of this plan has no radius: the autopilot uses its own."
+    ),
+    plan_with_fence(circles=[RING | {"inclusion": None}]): "The fence of this plan has a fault in circle 1.",
+    plan_with_fence(homeCircles=[{"radius": 300}]): (
+        "The fence of this plan has homeCircles, which is not known and may restrict the flight."
+    ),
+    plan_with_fence(circles=[RING | {"holes": [[47.1, 8.2]]}]): (
+        "The fence of this plan has holes, which is not known and may restrict the flight."
     ),
 }
 

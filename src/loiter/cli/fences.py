@@ -42,7 +42,7 @@ class FenceOptions:
     """A fence, and how far from it the path must stay."""
 
     fence: FenceFile = None
-    """Fence of polygons and circles: .plan of QGroundControl, QGC WPL 110 with fence items, latitudes and longitudes as ArduPilot's fence.txt, or for scenes in metres a .csv with the columns zone, rule (in or out), east_m, north_m and radius_m. A line says whether the plan and its hold stay clear, and if not, where and when they enter which zone, and the fastest clear entry found, which files and pictures then have: exit status 1. That of --orbit-from if absent."""
+    """Fence of polygons and circles: .plan of QGroundControl, QGC WPL 110 with fence items, latitudes and longitudes as ArduPilot's fence.txt, or for scenes in metres a .csv with the columns zone, rule (in or out), east_m, north_m and radius_m. A line says whether the plan and its hold stay clear, and if not, where and when they enter which zone, and the fastest clear entry found, which files and pictures then have: exit status 1. That of --orbit-from if absent. A .plan has the fence too."""
     margin: Metres = None
     """Least distance from the fence; if absent, what loiter guide may be beside its path: 5 % of the radius, and 5 m at least."""
 

@@ -209,7 +209,7 @@ def _plan_mission(
         *([remark] if remark else []),
         str(best),
         *([report.ALONG_PATH] if along_path else []),
-        *([fenced.check.sentence(frame)] if fenced else []),
+        *([fenced.check.sentence(frame), "The fence itself is not sent."] if fenced else []),
     ]
     return PlannedMission(best, frame, lambda autopilot: to_mission(autopilot=autopilot), lines)
 

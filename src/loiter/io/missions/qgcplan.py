@@ -76,7 +76,7 @@ def read_plan(source: Source, text: str) -> dict[str, Any]:
     document = _parsed(source, text)
     if "fileType" not in document:
         what = "it is GeoJSON" if document.get("type") in GEOJSON else "it has no fileType"
-        raise source.fault(f"{what}, and no plan of QGroundControl")
+        raise source.fault(f"it is no plan of QGroundControl: {what}")
     if document.get("fileType") != "Plan":
         raise source.fault(f"fileType is {shown(document.get('fileType'))}: it must be 'Plan'")
     check_version(source, "version", document, 1)

@@ -17,6 +17,9 @@ import { tidy } from "../shared/units.js";
 /** Where each command that flies a circle has its radius: NAV_LOITER_UNLIM, _TURNS, _TIME, _TO_ALT. @type {Record<number, number>} */
 const RADIUS_AT = { 17: 2, 18: 2, 19: 2, 31: 1 };
 
+/** The members of a fence and its areas that may be lists or objects; others may be zones too, or their holes. */
+const KNOWN = new Set(["circles", "polygons", "breachReturn", "circle", "polygon", "center"]);
+
 /** The reference of each frame of MAVLink. @type {Record<number, import("../shared/types.js").Reference>} */
 const REFERENCES = { 0: "msl", 3: "home", 10: "ground" };
 
@@ -66,12 +69,18 @@ export function sceneOfPlan(text, scene) {
  * @returns {Scene}
  */
 function withFence(scene, fence) {
+  const unknown = [fence, ...list(fence?.circles), ...list(fence?.polygons), ...list(fence?.circles).map(({ circle }) => circle)]
+    .flatMap((one) => Object.entries(one ?? {}))
+    .find(([name, value]) => !KNOWN.has(name) && value !== null && typeof value === "object" && Object.keys(value).length > 0);
+  if (unknown) throw new Error(`The fence of this plan has ${unknown[0]}, which is not known and may restrict the flight.`);
   const circles = list(fence?.circles).map(({ circle, inclusion }, i) => ({ name: `circle ${i + 1}`, inclusion, corners: [circle?.center], radius_m: circle?.radius }));
   const polygons = list(fence?.polygons).map(({ polygon, inclusion }, i) => ({ name: `polygon ${i + 1}`, inclusion, corners: list(polygon), radius_m: 0 }));
   const areas = [...polygons, ...circles];
   if (areas.length === 0) return scene;
   const isPlace = (/** @type {any} */ place) => Array.isArray(place) && place.length === 2 && place.every(Number.isFinite);
-  const fault = areas.find(({ corners, radius_m }) => !corners.every(isPlace) || !(Number.isFinite(radius_m) && radius_m >= 0));
+  const fault = areas.find(
+    ({ corners, radius_m, inclusion }) => !corners.every(isPlace) || !(Number.isFinite(radius_m) && radius_m >= 0) || typeof inclusion !== "boolean",
+  );
   if (fault) throw new Error(`The fence of this plan has a fault in ${fault.name}.`);
   const [[latitude_deg, longitude_deg]] = areas[0].corners;
   const origin = scene.origin ?? { latitude_deg, longitude_deg };
@@ -81,9 +90,9 @@ function withFence(scene, fence) {
       const [east, north] = toLocal(origin, { latitude_deg: latitude, longitude_deg: longitude });
       return [tidy(east, 0.001), tidy(north, 0.001)];
     });
-    if (!radius_m) return { name, inclusion: inclusion === true, corners: places };
+    if (!radius_m) return { name, inclusion, corners: places };
     const [[east_m, north_m]] = places;
-    return { name, inclusion: inclusion === true, east_m, north_m, radius_m };
+    return { name, inclusion, east_m, north_m, radius_m };
   });
   return withZones({ ...scene, origin }, zones);
 }
