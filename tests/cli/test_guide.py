@@ -56,6 +56,24 @@ def test_a_line_a_second_and_the_hand_over(kind, capsys):
     assert vehicle.airframe.airspeed == 18.0
 
 
+def test_the_fence_of_a_mission_is_kept(capsys, tmp_path):
+    """The circle comes from a mission whose fence has a zone about it."""
+    path = tmp_path / "existing.plan"
+    scene = "--pose-lla 47 8.01 270 --orbit-lla 47 8 80 --airspeed 18 --bank 35 --altitude 600"
+    assert main(f"plan {scene} --save {path}".split()) == 0
+    document = json.loads(path.read_text())
+    zone = {"circle": {"center": [47.0, 8.0], "radius": 90.0}, "inclusion": False, "version": 1}
+    document["geoFence"]["circles"] = [zone]
+    path.write_text(json.dumps(document))
+    capsys.readouterr()
+    vehicle = GuidedPlane()
+    status, _, err = flown(vehicle, GUIDE.replace("--orbit-lla 47 8 80", f"--orbit-from {path}"), capsys)
+    assert status == 3
+    assert "cannot be guided: " in err
+    assert "'circle 1'" in err
+    assert vehicle.commands == []
+
+
 def test_ctrl_c_commands_the_vehicle_back(capsys):
     status, out, err = flown(GuidedPlane(), f"{GUIDE} --keep", capsys, interrupt=[10.0])
     assert status == 130

@@ -99,6 +99,27 @@ def test_an_upload_outside_the_fence_is_refused(existing, refusal):
             assert vehicle.mission == []
 
 
+@pytest.mark.parametrize(
+    ("arguments", "where"),
+    [
+        ("fleet none.csv --airspeed 18 --bank 35", "for fleets"),
+        ("guide --fleet none.csv --yes", "for fleets and slots"),
+        ("guide --connect udpin:127.0.0.1:14550 --slot 90 --yes", "for fleets and slots"),
+        ("watch --connect udpin:127.0.0.1:14550 --airspeed 18 --bank 35 --send", "with --send"),
+        (f"fly {START} --slot 90 {UAV}", "with --slot"),
+    ],
+)
+def test_a_fence_that_would_not_be_checked_is_refused(existing, refusal, arguments, where):
+    sentence = refusal(f"{arguments} --orbit-from {existing([ring(4000.0)])}")
+    assert sentence == f"loiter: --orbit-from has a fence, which is not checked {where}: give --orbit-lla"
+
+
+def test_watching_says_that_the_fence_is_not_checked(existing, shown):
+    with flying(Vehicle([])) as vehicle:
+        text = shown(f"watch --connect {vehicle.connection} {UAV} --reports 1 --orbit-from {existing([ring(4000.0)])}")
+    assert text.splitlines()[0] == "The fence of --orbit-from is not checked."
+
+
 def test_a_site_is_read(existing):
     site = read_site(existing([ring(500.0, inclusion=False)], [box(3000.0)]))
     assert site.home == (47.09, 8.21, 450.0)

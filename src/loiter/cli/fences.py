@@ -100,13 +100,13 @@ class GuidedFenceOptions(FenceOptions):
     fence: FenceFile = None
     """Stay clear of a fence: that of a file, as for loiter plan, or with --fence vehicle the one that the vehicle has. The fastest clear entry that is found is flown, and a flight without any refused. In flight the vehicle is handed back to its own hold where it enters a zone."""
 
-    def of_flight(self) -> PlacedFence | OwnFence | None:
-        """The fence of the file, or "vehicle"; None without one. Raises `InvalidArgument`."""
+    def of_flight(self, site: Site | None) -> PlacedFence | OwnFence | None:
+        """The fence of the file or of an existing mission, or "vehicle"; None without one. Raises `InvalidArgument`."""
         if self.fence == Path("vehicle"):
             return "vehicle"
         from loiter.fences import Fence
 
-        found = self.read(None)
+        found = self.read(site)
         if isinstance(found, Fence):
             raise InvalidArgument("fence", METRES_ONLY)
         return found

@@ -171,6 +171,16 @@ class OrbitOptions:
 
         return read_site(self.orbit_from, "orbit_from")
 
+    @property
+    def fenced(self) -> bool:
+        """Whether the mission of --orbit-from has a fence."""
+        return self.site is not None and self.site.fence is not None
+
+    def check_unfenced(self, where: str) -> None:
+        """Raise `InvalidArgument` for a fence of --orbit-from where none is checked."""
+        if self.fenced:
+            raise InvalidArgument("orbit_from", f"has a fence, which is not checked {where}: give --orbit-lla")
+
     def site_remark(self) -> str:
         """A line on the circle taken from a mission; otherwise empty."""
         if self.site is None:

@@ -119,8 +119,7 @@ def fleet(
     read = read_circle(circle, uav, air, fit=fit, datum=waypoints.datum(circle.site))
     wanted = Output(json, pictures, save)
     wanted.check(check_format)
-    if circle.site is not None and circle.site.fence is not None:
-        raise InvalidArgument("orbit_from", "has a fence, which is not checked for fleets: give --orbit-lla")
+    circle.check_unfenced("for fleets")
     rows = read_fleet(table, column_mapping(map_ or []))
     with fit_proposed():
         poses = _poses(rows, read, table)

@@ -246,6 +246,8 @@ def fly(
         aimed = slotted.slot_for(simulated)
         if aimed and fence.fence is not None:
             raise InvalidArgument("fence", "does not go with --slot")
+        if aimed:
+            circle.check_unfenced("with --slot")
         ideal = loiter.plan(pose, orbit, simulated.aircraft(uav), air.moving_air, slot=aimed)
         fenced = None if aimed else check_fence(fence, circle.site, ideal, frame)
         _fly_once(campaign.Trial(ideal, simulated.seed), simulated, wanted, slotted, aimed, fenced)

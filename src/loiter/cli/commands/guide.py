@@ -129,6 +129,8 @@ def guide(
     for name, value in ({"separation_m": slotted.separation} if fleet is None else alone).items():
         if value is not None:
             raise InvalidArgument(name, f"has no effect {'without' if fleet is None else 'with'} --fleet")
+    if fleet is not None or slotted.slot is not None:
+        circle.check_unfenced("for fleets and slots")
     if fleet is not None:
         from loiter.cli.commands.guide_fleet import FleetOutput, guide_fleet
         from loiter.mavlink.guiding.fleet import FleetRequest
@@ -168,7 +170,7 @@ def guide(
         confirm=None if how.yes else _question(),
         resume=how.resume,
         log=log,
-        fence=fence.of_flight(),
+        fence=fence.of_flight(circle.site),
         margin_m=fence.margin,
         **slotted.arguments,
     )

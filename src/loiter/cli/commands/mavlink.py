@@ -252,6 +252,8 @@ def watch(
     if not circle.placed:
         raise InvalidArgument("orbit_lla", "is needed: a vehicle reports its position in degrees")
     air.check_declination()
+    if shown.send:
+        circle.check_unfenced("with --send")
     orbit, frame = circle.circle(uav.preset)
     assert frame is not None  # the circle is in degrees
     if shown.reports is not None and shown.reports < 1:
@@ -274,8 +276,8 @@ def watch(
         for vehicle in islice(vehicle_reports, shown.reports):
             vehicles.print_line(vehicles.watch_document(vehicle))
         return
-    if remark := uav.remark:
-        report.write(remark)
+    unchecked = "The fence of --orbit-from is not checked." if circle.fenced else ""
+    report.write(*filter(None, [uav.remark, unchecked]))
     commanded = False
     for vehicle in islice(vehicle_reports, shown.reports):
         if vehicle.commanded and not commanded and vehicle.turn is not None:
