@@ -98,7 +98,7 @@ class GuidedFenceOptions(FenceOptions):
     """A fence, which may be that of the vehicle."""
 
     fence: FenceFile = None
-    """Stay clear of a fence: that of a file, as for loiter plan, or with --fence vehicle the one that the vehicle has. The fastest clear entry that is found is flown, and a flight without any refused. In flight the vehicle is handed back to its own hold where it enters a zone."""
+    """Stay clear of a fence: that of a file, as for loiter plan, with --fence vehicle the one that the vehicle has, or that of --orbit-from if absent. The fastest clear entry that is found is flown, and a flight without any refused. In flight the vehicle is handed back to its own hold where it enters a zone."""
 
     def of_flight(self, site: Site | None) -> PlacedFence | OwnFence | None:
         """The fence of the file or of an existing mission, or "vehicle"; None without one. Raises `InvalidArgument`."""

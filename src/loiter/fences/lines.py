@@ -9,7 +9,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from loiter.fences.fence import Fence
-from loiter.fences.model import Zone
+from loiter.fences.model import Zone, signed_distance
 from loiter.fences.pieces import Pieces
 from loiter.fences.search import TOUCH_M, approach
 
@@ -43,9 +43,9 @@ def entered_zones(fence: Fence, courses: Sequence[Course]) -> list[tuple[int, Zo
         near = zip(zones, closest.distance.tolist(), closest.piece.tolist(), strict=True)
         found += [(piece, zone) for zone, distance_m, piece in near if distance_m <= TOUCH_M]
     # What lies on the wrong side of a polygon as a whole touches none of its edges.
-    for i, (east_m, north_m) in enumerate(zip(pieces.x.tolist(), pieces.y.tolist(), strict=True)):
-        zone = fence.violated(east_m, north_m)
-        found += [] if zone is None else [(i, zone)]
+    for zone in fence.zones:
+        wrong = (signed_distance(zone, pieces.x, pieces.y) < 0.0).nonzero()[0]
+        found += [(int(wrong[0]), zone)] if wrong.size else []
     return sorted(found, key=lambda each: each[0])
 
 

@@ -134,7 +134,7 @@ def upload(
     else:
         to_send = loiter.io.read_mission(mission)
         not_sent = check_own_fence(mission, to_send)
-        plan = {"not_sent": not_sent._asdict()}
+        plan = {"not_sent": not_sent._asdict()} if any(not_sent) else {}
     with _progress_bars() as on_progress:
         summary = loiter.mavlink.upload(
             to_send,
