@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
-from math import hypot
+from math import hypot, isfinite
 from typing import TYPE_CHECKING, NamedTuple
 
 from loiter.errors import InvalidArgument
 from loiter.geo.frame import LocalFrame
 from loiter.io.missions import signs
-from loiter.io.missions.items import Frame, Mission, MissionItem
+from loiter.io.missions.items import EQUIVALENT_FRAMES, Mission, MissionItem
+from loiter.io.missions.references import DO_JUMP
 from loiter.lazy import LazyModule
 
 if TYPE_CHECKING:
@@ -21,8 +22,6 @@ else:
 
 # MAVLink's commands up to MAV_CMD_NAV_LAST fly to their place, but for the region of interest.
 LAST_FLOWN, REGION_OF_INTEREST = 95, 80
-
-DO_JUMP = 177
 
 
 class Stop(NamedTuple):
@@ -56,7 +55,8 @@ def mission_breach(mission: Mission, fence: fences.PlacedFence) -> str:
 
 def _is_flown(item: MissionItem) -> bool:
     """Whether an item flies to a place; 0 N 0 E means the present one."""
-    has_place = item.frame != Frame.NOWHERE and (item.latitude_deg != 0.0 or item.longitude_deg != 0.0)
+    place = item.latitude_deg, item.longitude_deg
+    has_place = item.frame in EQUIVALENT_FRAMES and all(map(isfinite, place)) and any(place)
     return has_place and item.command <= LAST_FLOWN and item.command != REGION_OF_INTEREST
 
 

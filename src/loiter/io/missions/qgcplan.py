@@ -106,7 +106,7 @@ def items_of(source: Source, document: dict[str, Any], commands: Set[int]) -> It
 
 
 def complex_items(document: dict[str, Any]) -> Iterator[str]:
-    """The items that `simple_items` passes over, in words: "item 2, 'survey'"."""
+    """The items of a plan that are not simple, in words: "item 2, 'survey'"."""
     for number, item in enumerate(document["mission"]["items"], start=1):
         if isinstance(item, dict) and item.get("type") != "SimpleItem":
             yield f"item {number}, {shown(item.get('complexItemType', item.get('type')))}"
