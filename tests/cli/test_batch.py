@@ -40,7 +40,6 @@ HINTS = {
     "semicolons": ("east_m;north_m;heading_deg\n1;2;3\n", "separated by semicolons: they must be separated by commas"),
     "tabs": ("east_m\tnorth_m\theading_deg\n1\t2\t3\n", "separated by tabs"),
     "capital": ("East_m,north_m,heading_deg\n1,2,3\n", "map east_m='East_m'"),
-    "space": ("east_m, north_m,heading_deg\n1,2,3\n", "map north_m=' north_m'"),
     "short": ("east_m,north_m,heading\n1,2,3\n", "map heading_deg='heading'"),
 }
 
