@@ -8,10 +8,10 @@ reported time to join.
 
 from loiter import Aircraft, Orbit, Pose, plan
 from loiter.guidance import LoiterEntry
-from loiter.guidance.rivals.l1 import L1
-from loiter.guidance.simulators.point_mass import PointMass
-from loiter.guidance.trials.flight import fly
-from loiter.plot.flown import draw
+from loiter.lab.picture import draw
+from loiter.lab.rivals.l1 import L1
+from loiter.lab.simulators.point_mass import PointMass
+from loiter.lab.trials.flight import fly
 
 uav, orbit = Aircraft(airspeed_m_s=18.0, max_bank_deg=35.0), Orbit(0.0, 0.0, radius_m=80.0, turn="cw")
 start = Pose(east_m=-300.0, north_m=-150.0, heading_deg=30.0)

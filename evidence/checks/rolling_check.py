@@ -16,8 +16,8 @@ from evidence.checks.rolling import BankProfile, Rolling, RollingPath, SettlingB
 from evidence.checks.rolling_lower import lower_bound
 from loiter.errors import InvalidArgument
 from loiter.guidance.circle import Band
-from loiter.guidance.trials.campaign import trials
 from loiter.guidance.vehicle import Roll
+from loiter.lab.trials.campaign import trials
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CONTROLS, Aircraft, Turn
 from loiter.planning.solve import candidates

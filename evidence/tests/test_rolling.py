@@ -22,8 +22,8 @@ from evidence.checks.rolling_lower import lower_bound
 from loiter import Aircraft, Orbit, Pose, plan
 from loiter.errors import InvalidArgument
 from loiter.guidance.circle import Band
-from loiter.guidance.trials.campaign import trials
 from loiter.guidance.vehicle import Roll
+from loiter.lab.trials.campaign import trials
 
 # The start of the first example, 25 s away, in metres.
 ENTRY = plan(Pose(-400.0, 120.0, 90.0), Orbit(0.0, 0.0, 120.0), Aircraft(22.0, max_bank_deg=45.0))

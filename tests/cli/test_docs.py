@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from loiter.cli.app import app
-from loiter.cli.examples import EXAMPLES
+from loiter.cli.command import commands as listed
 
 ROOT = Path(__file__).parents[2]
 # From the prompt, or from "loiter" in a block without one, to the end of a line that no backslash continues.
@@ -37,6 +37,6 @@ def test_no_example_calls_the_port_that_simulators_and_routers_send_to():
     texts = {
         path.name: path.read_text(encoding="utf-8") for path in [ROOT / "README.md", *(ROOT / "docs").rglob("*.md")]
     }
-    texts |= EXAMPLES
+    texts |= {command.name: command.examples for command in listed()}
     assert [name for name, text in texts.items() if re.search(r"udpout:[^:\s]*:14550", text)] == []
     assert "udpin:127.0.0.1:14550" in texts["README.md"]

@@ -6,7 +6,7 @@ import pytest
 
 from cli.test_completion import COMMANDS
 from loiter.cli.app import app, main
-from loiter.cli.examples import EXAMPLES
+from loiter.cli.command import commands as listed
 
 
 @pytest.fixture
@@ -59,7 +59,7 @@ def test_upload_takes_a_file(capsys):
 
 
 def test_every_command_is_among_them():
-    assert sorted(EXAMPLES) == sorted(COMMANDS)
+    assert sorted(command.name for command in listed()) == sorted(COMMANDS)
 
 
 def test_the_program_shows_how_to_begin(examples):

@@ -16,8 +16,8 @@ from fences.scenes import scene
 from loiter.errors import LoiterError
 from loiter.fences import clear_entry, default_margin_m
 from loiter.guidance.entry.fenced_entry import FencedEntry
-from loiter.guidance.simulators.point_mass import PointMass
-from loiter.guidance.trials.flight import fly
+from loiter.lab.simulators.point_mass import PointMass
+from loiter.lab.trials.flight import fly
 
 GUST, LIMIT_S = 0.05, 300.0
 

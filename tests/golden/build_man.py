@@ -12,8 +12,9 @@ from cyclopts import App
 from cyclopts.argument import Argument
 
 from loiter.cli.app import app, shown_default
-from loiter.cli.examples import EXAMPLES, EXIT_STATUSES
+from loiter.cli.command import EPILOGUE, commands
 
+EXAMPLES = {command.name: command.examples for command in commands()}
 DOCUMENT = Path(__file__).parents[2] / "docs" / "loiter.1"
 
 
@@ -84,7 +85,7 @@ def section(name: str) -> Iterator[str]:
 
 
 def build() -> str:
-    commands = [name for name in app if not name.startswith("-")]
+    names = [name for name in app if not name.startswith("-")]
     lines = [
         f'.TH LOITER 1 "" "loiter {app.version}" "User Commands"',
         ".SH NAME\nloiter \\- the fastest way onto a holding circle for a fixed-wing aircraft",
@@ -94,9 +95,9 @@ def build() -> str:
         ".SH DESCRIPTION",
         *paragraphs(app.help),
         ".SH COMMANDS",
-        *(line for name in commands for line in section(name)),
+        *(line for name in names for line in section(name)),
         ".SH EXIT STATUS",
-        as_it_stands(EXIT_STATUSES.partition("Exit status\n")[2]),
+        as_it_stands(EPILOGUE.partition("Exit status\n")[2]),
     ]
     return "\n".join(lines) + "\n"
 

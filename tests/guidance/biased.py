@@ -14,10 +14,10 @@ import numpy as np
 from guidance.biased_trials import biased_trials
 from guidance.flights_in_c import fly_in_c
 from loiter import Pose, plan
-from loiter.guidance.trials.campaign import LAWS
-from loiter.guidance.trials.flight import fly
-from loiter.guidance.trials.varied import VariedTrial, varied_point_mass
 from loiter.guidance.vehicle import Roll
+from loiter.lab.trials.campaign import LAWS
+from loiter.lab.trials.flight import fly
+from loiter.lab.trials.varied import VariedTrial, varied_point_mass
 
 # A flight that settles later than the first number of durations of the plan counts as not settled. Nine of ten should
 # settle within the second.

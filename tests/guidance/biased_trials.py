@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from loiter.guidance.simulators.downlink import Downlink
-from loiter.guidance.simulators.roll_dynamics import RollResponse
-from loiter.guidance.simulators.sensors import Noise
-from loiter.guidance.trials.campaign import random_trials
-from loiter.guidance.trials.varied import VariedTrial
 from loiter.guidance.vehicle import Roll
 from loiter.kernel.wind.hold import tightest_radius
+from loiter.lab.simulators.downlink import Downlink
+from loiter.lab.simulators.roll_dynamics import RollResponse
+from loiter.lab.simulators.sensors import Noise
+from loiter.lab.trials.campaign import random_trials
+from loiter.lab.trials.varied import VariedTrial
 from loiter.planning.model import Aircraft, Orbit, Pose, Wind, relative_wind
 from loiter.planning.solve import plan
 

@@ -4,8 +4,8 @@ from math import atan2, degrees, hypot, nan, pi, radians, tan
 
 from loiter import Aircraft, Orbit, Pose, Turn
 from loiter.guidance.protocol import State
-from loiter.guidance.rivals.following import Follower
 from loiter.kernel.motion import fly
+from loiter.lab.rivals.following import Follower
 from loiter.planning.compass import heading_vector
 from loiter.planning.model import STANDARD_GRAVITY_M_S2
 

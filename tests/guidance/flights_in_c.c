@@ -1,5 +1,5 @@
-/* Flights in closed loop: the point mass, its sensors and its downlink as in loiter.guidance.simulators, with the law
-   of law.h, until they have settled as in loiter.guidance.trials.settling. The caller draws the random numbers.
+/* Flights in closed loop: the point mass, its sensors and its downlink as in loiter.lab.simulators, with the law
+   of law.h, until they have settled as in loiter.lab.trials.settling. The caller draws the random numbers.
    SI units, banks and headings in degrees; a name of Python in a comment is that of the original. */
 
 #include <string.h>

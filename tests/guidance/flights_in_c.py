@@ -22,12 +22,12 @@ from loiter.guidance.circle import Band
 from loiter.guidance.entry import law_step
 from loiter.guidance.entry.loiter_entry import LoiterEntry
 from loiter.guidance.estimation import identification_step
-from loiter.guidance.simulators.gusts import BLOCK, _gust_step, scale_length_m
-from loiter.guidance.simulators.point_mass import ALTITUDE_M
-from loiter.guidance.simulators.roll_dynamics import damping, rise_time
-from loiter.guidance.trials.flight import LIMIT_S, STEP_S
-from loiter.guidance.trials.settling import DIRECTIONS
 from loiter.guidance.vehicle import Roll, constant_turn
+from loiter.lab.simulators.gusts import BLOCK, _gust_step, scale_length_m
+from loiter.lab.simulators.point_mass import ALTITUDE_M
+from loiter.lab.simulators.roll_dynamics import damping, rise_time
+from loiter.lab.trials.flight import LIMIT_S, STEP_S
+from loiter.lab.trials.settling import DIRECTIONS
 from loiter.planning.compass import heading_vector
 from native.library import COMPILER, FLAGS
 

@@ -5,9 +5,9 @@ from hypothesis import strategies as st
 from guidance.circling import state_of
 from loiter import Aircraft, Orbit
 from loiter.guidance.protocol import Command, Phase, State
-from loiter.guidance.rivals.l1 import L1
-from loiter.guidance.rivals.tangent import Tangent
-from loiter.guidance.rivals.vector_field import VectorField
+from loiter.lab.rivals.l1 import L1
+from loiter.lab.rivals.tangent import Tangent
+from loiter.lab.rivals.vector_field import VectorField
 from loiter.planning.compass import heading_vector
 
 FOLLOWERS = {"L1": L1, "vector field": VectorField, "tangent": Tangent}

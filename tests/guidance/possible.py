@@ -17,11 +17,11 @@ from evidence.checks.rolling_check import settling_bound_s
 from loiter import Aircraft
 from loiter.guidance.circle import Band
 from loiter.guidance.protocol import Simulator
-from loiter.guidance.simulators.airframes import AEROSONDE, J3CUB, Airframe
-from loiter.guidance.simulators.jsbsim_aircraft import JsbsimAircraft
-from loiter.guidance.trials.campaign import MakeSimulator, Trial, campaign, optimal, trials
-from loiter.guidance.trials.settings import point_mass_setting
 from loiter.guidance.vehicle import Roll
+from loiter.lab.simulators.airframes import AEROSONDE, J3CUB, Airframe
+from loiter.lab.simulators.jsbsim_aircraft import JsbsimAircraft
+from loiter.lab.trials.campaign import MakeSimulator, Trial, campaign, optimal, trials
+from loiter.lab.trials.settings import point_mass_setting
 
 AIRFRAMES = {"j3cub": J3CUB, "aerosonde": AEROSONDE}
 

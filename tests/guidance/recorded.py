@@ -21,12 +21,12 @@ from loiter import Aircraft, Wind
 from loiter.errors import LoiterError
 from loiter.guidance.entry.loiter_entry import LoiterEntry
 from loiter.guidance.protocol import Phase, State
-from loiter.guidance.simulators.kinematic import Kinematic
-from loiter.guidance.simulators.point_mass import PointMass
-from loiter.guidance.simulators.sensors import Noise
-from loiter.guidance.trials.campaign import trials
-from loiter.guidance.trials.varied import varied_point_mass, varied_trials
 from loiter.guidance.vehicle import Roll
+from loiter.lab.simulators.kinematic import Kinematic
+from loiter.lab.simulators.point_mass import PointMass
+from loiter.lab.simulators.sensors import Noise
+from loiter.lab.trials.campaign import trials
+from loiter.lab.trials.varied import varied_point_mass, varied_trials
 
 UAV = Aircraft(18.0, max_bank_deg=35.0)
 PHASES, TURNS = list(Phase), ["cw", "ccw", "either"]

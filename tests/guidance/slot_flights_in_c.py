@@ -17,9 +17,9 @@ from codegen.unit import Unit
 from guidance.flights_in_c import ROOTS, Scene, drawn, roll_kind, vehicle_fields
 from guidance.test_law_in_c import in_c, structure
 from loiter.guidance.entry import slot_step
-from loiter.guidance.simulators.sensors import Noise
 from loiter.guidance.vehicle import Roll
 from loiter.kernel.wind import slots
+from loiter.lab.simulators.sensors import Noise
 from loiter.planning.model import CALM
 from native.library import COMPILER, FLAGS
 

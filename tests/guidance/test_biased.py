@@ -9,11 +9,11 @@ from guidance.biased import ratio
 from guidance.biased_trials import biased_trials
 from loiter import Aircraft, Orbit, Pose, Wind, plan
 from loiter.guidance.entry.loiter_entry import LoiterEntry
-from loiter.guidance.simulators.downlink import Downlink, WithDownlink
-from loiter.guidance.simulators.point_mass import PointMass
-from loiter.guidance.simulators.sensors import Noise
-from loiter.guidance.trials.flight import fly
 from loiter.guidance.vehicle import Roll
+from loiter.lab.simulators.downlink import Downlink, WithDownlink
+from loiter.lab.simulators.point_mass import PointMass
+from loiter.lab.simulators.sensors import Noise
+from loiter.lab.trials.flight import fly
 from native.library import needs_compiler
 
 SLOW_ROLL, BIASED = Roll(0.53, 30.0), Noise(heading_bias_deg=-4.0, bank_bias_deg=2.7)

@@ -12,10 +12,10 @@ from loiter.fences import CircleZone, Fence, PolygonZone, clear_entry
 from loiter.guidance.entry import fenced_entry
 from loiter.guidance.entry.fenced_entry import FencedEntry
 from loiter.guidance.entry.loiter_entry import LoiterEntry
-from loiter.guidance.simulators.kinematic import Kinematic
-from loiter.guidance.simulators.point_mass import PointMass
-from loiter.guidance.trials.flight import fly
 from loiter.guidance.vehicle import INSTANT_ROLL
+from loiter.lab.simulators.kinematic import Kinematic
+from loiter.lab.simulators.point_mass import PointMass
+from loiter.lab.trials.flight import fly
 
 UAV = Aircraft(18.0, max_bank_deg=35.0)
 POSE, ORBIT = Pose(-450.0, 0.0, 90.0), Orbit(0.0, -200.0, 120.0, Turn.CW)

@@ -6,8 +6,8 @@ import pytest
 from guidance.biased_trials import biased_trials
 from guidance.flights_in_c import COLUMNS, fly_in_c
 from loiter.guidance.entry.loiter_entry import LoiterEntry
-from loiter.guidance.trials.flight import STEP_S, fly
-from loiter.guidance.trials.varied import varied_point_mass, varied_trials
+from loiter.lab.trials.flight import STEP_S, fly
+from loiter.lab.trials.varied import varied_point_mass, varied_trials
 from native.library import needs_compiler
 
 pytestmark = needs_compiler

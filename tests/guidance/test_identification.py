@@ -47,12 +47,12 @@ from loiter.guidance.estimation.turn_fits import (
 )
 from loiter.guidance.estimation.wind_fit import first_wind
 from loiter.guidance.protocol import State
-from loiter.guidance.simulators.point_mass import PointMass
-from loiter.guidance.simulators.roll_dynamics import RollResponse, SecondOrderRoll
-from loiter.guidance.simulators.sensors import EXACT, Noise
-from loiter.guidance.trials.flight import fly
-from loiter.guidance.trials.varied import varied_trials
 from loiter.guidance.vehicle import Roll, RollValues, bank_at_rate, rate_at_bank
+from loiter.lab.simulators.point_mass import PointMass
+from loiter.lab.simulators.roll_dynamics import RollResponse, SecondOrderRoll
+from loiter.lab.simulators.sensors import EXACT, Noise
+from loiter.lab.trials.flight import fly
+from loiter.lab.trials.varied import varied_trials
 
 UAV, ORBIT = Aircraft(18.0, max_bank_deg=35.0), Orbit(0.0, 0.0, 120.0)
 START = Pose(-400.0, 120.0, 200.0)

@@ -17,9 +17,9 @@ from loiter.guidance.entry.limits import Settings
 from loiter.guidance.entry.loiter_entry import LoiterEntry
 from loiter.guidance.estimation.identification_step import Identification, IdentificationSettings
 from loiter.guidance.protocol import State
-from loiter.guidance.simulators.point_mass import PointMass
-from loiter.guidance.simulators.sensors import Noise
 from loiter.guidance.vehicle import VehicleEstimates, VehicleModel
+from loiter.lab.simulators.point_mass import PointMass
+from loiter.lab.simulators.sensors import Noise
 from native.library import COMPILER, FLAGS, needs_compiler
 
 pytestmark = needs_compiler

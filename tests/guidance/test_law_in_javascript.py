@@ -11,7 +11,7 @@ from codegen.files import law_module
 from guidance.recorded import damaged
 from guidance.test_law_in_c import SCENES, START, UAV, same
 from loiter.guidance.entry.loiter_entry import LoiterEntry
-from loiter.guidance.simulators.point_mass import PointMass
+from loiter.lab.simulators.point_mass import PointMass
 
 FLY = """
 import { first_identification, first_memory, fly_as_declared, identify, settings_of, step } from "./law.js";

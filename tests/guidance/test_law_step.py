@@ -16,8 +16,8 @@ from loiter.guidance.entry import entry_planner, law_step, limits, plan, route, 
 from loiter.guidance.entry.loiter_entry import NAMED_PHASES, LoiterEntry
 from loiter.guidance.estimation import identification_step, observer, roll_response, turn_fits, wind_fit
 from loiter.guidance.protocol import Phase
-from loiter.guidance.simulators.point_mass import PointMass
-from loiter.guidance.simulators.sensors import Noise
+from loiter.lab.simulators.point_mass import PointMass
+from loiter.lab.simulators.sensors import Noise
 
 UAV, ORBIT = Aircraft(18.0, max_bank_deg=35.0), Orbit(0.0, 0.0, 120.0)
 START = Pose(-400.0, 120.0, 200.0)

@@ -14,11 +14,11 @@ from loiter import Aircraft, Orbit, Pose, Wind, plan
 from loiter.errors import InvalidArgument, RadiusTooSmall, WindTooStrong
 from loiter.guidance.entry.loiter_entry import LoiterEntry
 from loiter.guidance.protocol import Phase, State
-from loiter.guidance.simulators.kinematic import Kinematic
-from loiter.guidance.simulators.point_mass import PointMass
-from loiter.guidance.simulators.sensors import EXACT, Noise
-from loiter.guidance.trials.flight import fly
 from loiter.guidance.vehicle import Roll
+from loiter.lab.simulators.kinematic import Kinematic
+from loiter.lab.simulators.point_mass import PointMass
+from loiter.lab.simulators.sensors import EXACT, Noise
+from loiter.lab.trials.flight import fly
 from loiter.planning.model import Turn
 from strategies import scenes, windy_scenes
 

@@ -28,11 +28,11 @@ from loiter.guidance.estimation.observer import (
     restart_air,
 )
 from loiter.guidance.protocol import Command, Phase, State
-from loiter.guidance.simulators.gusts import Gusts
-from loiter.guidance.simulators.kinematic import Kinematic
-from loiter.guidance.simulators.point_mass import PointMass
-from loiter.guidance.simulators.sensors import Noise
 from loiter.guidance.vehicle import Roll
+from loiter.lab.simulators.gusts import Gusts
+from loiter.lab.simulators.kinematic import Kinematic
+from loiter.lab.simulators.point_mass import PointMass
+from loiter.lab.simulators.sensors import Noise
 from loiter.planning.model import Turn
 
 GOOD = State(1.0, 2.0, 3.0, 40.0, 5.0, 6.0, 17.0, 18.0)

@@ -6,13 +6,13 @@ import pytest
 from guidance.flights_in_c import fly_in_c
 from loiter.guidance.circle import Band
 from loiter.guidance.entry.loiter_entry import LoiterEntry
-from loiter.guidance.simulators.downlink import Downlink
-from loiter.guidance.simulators.point_mass import PointMass
-from loiter.guidance.simulators.sensors import Noise
-from loiter.guidance.trials.campaign import random_entry, random_trials
-from loiter.guidance.trials.flight import fly
-from loiter.guidance.trials.varied import VariedTrial
 from loiter.guidance.vehicle import Roll
+from loiter.lab.simulators.downlink import Downlink
+from loiter.lab.simulators.point_mass import PointMass
+from loiter.lab.simulators.sensors import Noise
+from loiter.lab.trials.campaign import random_entry, random_trials
+from loiter.lab.trials.flight import fly
+from loiter.lab.trials.varied import VariedTrial
 from loiter.planning.model import Aircraft, Orbit, Pose, Wind
 from native.library import needs_compiler
 

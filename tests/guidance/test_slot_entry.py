@@ -14,8 +14,8 @@ from loiter.errors import InvalidArgument
 from loiter.guidance.entry.slot_entry import SlotEntry
 from loiter.guidance.entry.slot_step import SlotSettings, closing_s, phase_behind, slot_direction
 from loiter.guidance.protocol import Command, Phase
-from loiter.guidance.simulators.point_mass import PointMass
-from loiter.guidance.simulators.sensors import Noise
+from loiter.lab.simulators.point_mass import PointMass
+from loiter.lab.simulators.sensors import Noise
 from native.library import needs_compiler
 
 ORBIT = Orbit(0.0, 0.0, 120.0, Turn.CCW)

@@ -10,10 +10,10 @@ from loiter.guidance.entry.loiter_entry import LoiterEntry
 from loiter.guidance.estimation.identification_step import advance_identification, first_identification, settings_of
 from loiter.guidance.estimation.wind_fit import CHANGED_S, NO_CHANGE, add_difference
 from loiter.guidance.protocol import State
-from loiter.guidance.simulators.point_mass import PointMass
-from loiter.guidance.simulators.sensors import Noise
-from loiter.guidance.trials.flight import fly
 from loiter.guidance.vehicle import Roll, rate_at_bank
+from loiter.lab.simulators.point_mass import PointMass
+from loiter.lab.simulators.sensors import Noise
+from loiter.lab.trials.flight import fly
 from loiter.planning.compass import heading_vector
 
 UAV, STEP_S = Aircraft(22.0, max_bank_deg=45.0), 0.02

@@ -13,9 +13,9 @@ from typing import NamedTuple
 import numpy as np
 
 from guidance.flights_in_c import FlightInC, fly_in_c
-from loiter.guidance.trials.campaign import GO_AROUND_DEG, LAWS, arcs_deg
-from loiter.guidance.trials.flight import LIMIT_S, fly
-from loiter.guidance.trials.varied import VariedTrial, varied_point_mass, varied_trials
+from loiter.lab.trials.campaign import GO_AROUND_DEG, LAWS, arcs_deg
+from loiter.lab.trials.flight import LIMIT_S, fly
+from loiter.lab.trials.varied import VariedTrial, varied_point_mass, varied_trials
 
 # The default campaign: nothing was tuned with this seed.
 RUNS, SEED = 500, 17

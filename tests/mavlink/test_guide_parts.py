@@ -21,10 +21,10 @@ from loiter.geo import LocalFrame
 from loiter.geo.atmosphere import true_airspeed
 from loiter.guidance.circle import circle_offset
 from loiter.guidance.protocol import State
-from loiter.guidance.rivals.l1 import circle_demand
 from loiter.guidance.vehicle import PlanarPose, Roll, clip, constant_turn
 from loiter.io.flight_log import TEXTS, LogRow, read_log
 from loiter.io.missions.items import Autopilot
+from loiter.lab.rivals.l1 import circle_demand
 from loiter.mavlink.autopilots.acceleration_sign import CAUTIOUS_DEG, AccelerationSign, is_release, sign_of_version
 from loiter.mavlink.autopilots.modes import GUIDED, HOLD, OFFBOARD, ModeWatch, is_unfit, mode_name
 from loiter.mavlink.autopilots.own_guidance import guidance_of

@@ -20,10 +20,10 @@ from codegen.onboard.lua_files import APPLET, FOLDER
 from loiter import Aircraft, Orbit, Pose, Turn, Wind, plan
 from loiter.guidance.circle import Band
 from loiter.guidance.protocol import Command, Phase
-from loiter.guidance.rivals.l1 import L1
-from loiter.guidance.simulators.point_mass import PointMass
-from loiter.guidance.trials.settling import SettlingMonitor
 from loiter.guidance.vehicle import Roll
+from loiter.lab.rivals.l1 import L1
+from loiter.lab.simulators.point_mass import PointMass
+from loiter.lab.trials.settling import SettlingMonitor
 from loiter.version import __version__
 
 HERE = Path(__file__).parent

@@ -22,8 +22,8 @@ from codegen.lua import LUA, LUA_32BITS
 from codegen.onboard.lua_files import law as law_chunk
 from loiter import Aircraft, Turn, Wind
 from loiter.guidance.protocol import Command, Phase, State
-from loiter.guidance.trials.campaign import outcome, trials
-from loiter.guidance.trials.settings import point_mass_setting
+from loiter.lab.trials.campaign import outcome, trials
+from loiter.lab.trials.settings import point_mass_setting
 from native.onboard import OnboardLaw
 from native.single_precision import RADII, TOLERANCE, beside, library
 from native.test_applet import SOLVERS

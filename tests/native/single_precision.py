@@ -20,10 +20,10 @@ from compiled.windy import drawn
 from guidance.recorded import LIMIT_DEG
 from loiter import Aircraft, Wind
 from loiter.guidance.protocol import State
-from loiter.guidance.trials.campaign import campaign, outcome, trials
-from loiter.guidance.trials.settings import point_mass_setting, varied_setting
-from loiter.guidance.trials.varied import varied_trials
 from loiter.kernel.wind.wind_search import time_of
+from loiter.lab.trials.campaign import campaign, outcome, trials
+from loiter.lab.trials.settings import point_mass_setting, varied_setting
+from loiter.lab.trials.varied import varied_trials
 from native.onboard import OnboardLaw, library
 
 RADII = (1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 5.0, 30.0)

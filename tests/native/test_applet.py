@@ -17,9 +17,9 @@ from guidance.test_law_in_c import START, UAV, same
 from loiter import Aircraft, Orbit, Pose, Wind
 from loiter.guidance.entry import join_tracking
 from loiter.guidance.entry.loiter_entry import LoiterEntry
-from loiter.guidance.simulators.point_mass import PointMass
 from loiter.kernel.still_air import synthesis
 from loiter.kernel.wind.wind_search import WindProblem, fastest, time_of
+from loiter.lab.simulators.point_mass import PointMass
 from loiter.mavlink.guiding.hand_over import DOWNWIND_SHARE
 from native import states
 from native.applet import (

@@ -18,11 +18,11 @@ from loiter import Aircraft, Orbit, Pose, Wind
 from loiter.guidance.entry.law_step import LawCommand
 from loiter.guidance.entry.loiter_entry import LoiterEntry
 from loiter.guidance.protocol import Phase
-from loiter.guidance.simulators.point_mass import PointMass
 from loiter.kernel.entry import Entry
 from loiter.kernel.rounding import rounded_radius
 from loiter.kernel.still_air import synthesis
 from loiter.kernel.wind import wind_search
+from loiter.lab.simulators.point_mass import PointMass
 from native import states
 from native.fuzz import CALLED
 from native.library import COMPILER, needs_compiler

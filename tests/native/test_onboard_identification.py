@@ -8,7 +8,7 @@ import pytest
 from codegen.onboard import FOLDER
 from loiter import Aircraft, Orbit, Pose, Wind
 from loiter.guidance.entry.loiter_entry import LoiterEntry
-from loiter.guidance.simulators.point_mass import PointMass
+from loiter.lab.simulators.point_mass import PointMass
 from native.library import COMPILER, FLAGS, needs_compiler
 from native.onboard import MEASURED
 

@@ -11,9 +11,9 @@ from lupa.lua53 import LuaError
 from codegen.onboard.lua_files import FOLDER
 from loiter import Orbit, Pose
 from loiter.guidance.circle import Band
-from loiter.guidance.simulators.airframes import AEROSONDE
-from loiter.guidance.simulators.jsbsim_aircraft import JsbsimAircraft
-from loiter.guidance.trials.settling import SettlingMonitor
+from loiter.lab.simulators.airframes import AEROSONDE
+from loiter.lab.simulators.jsbsim_aircraft import JsbsimAircraft
+from loiter.lab.trials.settling import SettlingMonitor
 from native.applet import REPOSITION, Applet, World
 
 WATCHDOG, RADIUS_M, START = FOLDER / "loiter_watchdog.lua", 150.0, Pose(-500.0, 150.0, 200.0)

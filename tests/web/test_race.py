@@ -1,12 +1,12 @@
-"""The race of guidance laws: flown as `loiter.guidance.trials` flies them, and by the page's engine as by Python."""
+"""The race of guidance laws: flown as `loiter.lab.trials` flies them, and by the page's engine as by Python."""
 
 import json
 
 import pytest
 
 import loiter
-from loiter.guidance.simulators.kinematic import Kinematic
-from loiter.guidance.trials.flight import fly
+from loiter.lab.simulators.kinematic import Kinematic
+from loiter.lab.trials.flight import fly
 from loiter.planning.problem import Problem
 from loiter.web.answers.race import STEP, laws, race
 from web.browsing import in_module

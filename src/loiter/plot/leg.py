@@ -14,7 +14,6 @@ from loiter.geo import LocalFrame
 from loiter.lazy import LazyModule
 from loiter.planning.landing import LandingPlan, Runway
 from loiter.planning.leg import LegPlan
-from loiter.plot.flown import prepare_timeline
 from loiter.plot.picture import (
     CHORD_RAD,
     FENCE_STYLES,
@@ -33,6 +32,7 @@ from loiter.plot.picture import (
     draw_turns,
     mark,
     prepare_plan,
+    prepare_timeline,
 )
 
 if TYPE_CHECKING:

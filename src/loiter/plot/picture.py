@@ -537,3 +537,9 @@ def _outline(zone: Zone) -> Floats:
         east, north = zone.east_m + zone.radius_m * np.cos(angles), zone.north_m + zone.radius_m * np.sin(angles)
         return np.column_stack([east, north])
     return np.array([*zone.corners, zone.corners[0]])
+
+
+def prepare_timeline(axes: Axes) -> None:
+    """Prepare axes for values over time, with a grid."""
+    axes.grid(color="#e6e6e6", linewidth=0.8)
+    axes.set_axisbelow(True)

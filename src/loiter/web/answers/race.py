@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 from loiter.guidance.protocol import State
-from loiter.guidance.rivals.following import BAND, Follower
-from loiter.guidance.rivals.l1 import L1, SHORTEST_PERIOD_S
-from loiter.guidance.rivals.tangent import Tangent
-from loiter.guidance.rivals.vector_field import VectorField
-from loiter.guidance.simulators.kinematic import Kinematic
-from loiter.guidance.trials.settling import SettlingMonitor
+from loiter.lab.rivals.following import BAND, Follower
+from loiter.lab.rivals.l1 import L1, SHORTEST_PERIOD_S
+from loiter.lab.rivals.tangent import Tangent
+from loiter.lab.rivals.vector_field import VectorField
+from loiter.lab.simulators.kinematic import Kinematic
+from loiter.lab.trials.settling import SettlingMonitor
 from loiter.planning.problem import Problem
 
 # A law gives a command each time that the aircraft has flown this share of its turn radius.
