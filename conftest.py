@@ -34,13 +34,14 @@ SLOW = {
     "cli": "errors guide json man mavlink",
     "compiled": "ufuncs wind_solver",
     "documents": "notebooks package site",
-    "evidence": "collocation formal oracle_check proof reachability rounding signs verify wind_scan",
-    "guidance": "campaign following identification jsbsim_aircraft law_in_javascript loiter_entry slew",
+    "evidence/tests": "collocation formal oracle_check proof reachability rounding signs verify wind_scan",
+    "guidance": "identification law_in_javascript loiter_entry slew",
     "kernel": "cell_bounds wind_search",
+    "lab": "campaign following jsbsim_aircraft",
     "mavlink": "guide guide_misbehaving mavproxy peers upload watch",
     "native": "javascript javascript_mutants kernel mutants",
     "planning": "wind",
-    "plot": "picture sizes",
+    "plot": "picture",
     "": "make types",
     "verify": "certificate certificate_in_wind",
     "web": "api drawing failure fields history kernel layout limits load missions page places schema serve tiles touch",
@@ -64,7 +65,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
     """Leave out slow files where that is wanted; otherwise pytest decides."""
-    folder = collection_path.parent.name if collection_path.parent.name != "tests" else collection_path.parents[1].name
+    folder = collection_path.parent.relative_to(config.rootpath).as_posix().removeprefix("tests").strip("/")
     slow = collection_path.stem in [f"test_{name}" for name in SLOW.get(folder, "").split()]
     return True if slow and config.getoption("--quick") else None
 
