@@ -1,4 +1,4 @@
-"""What the tests of the commands share."""
+"""What the tests of commands share."""
 
 import json
 import shlex
