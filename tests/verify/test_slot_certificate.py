@@ -3,6 +3,7 @@
 import json
 from collections import Counter
 from dataclasses import replace
+from math import degrees, tau
 from pathlib import Path
 from random import Random
 
@@ -11,7 +12,8 @@ import pytest
 
 from kernel.slots import fold_scenes, random_scenes
 from loiter import Aircraft, Orbit, Pose, Slot, Turn, Wind, plan, plan_at
-from loiter.errors import InvalidArgument
+from loiter.errors import ImpossibleTime, InvalidArgument
+from loiter.kernel.rounding import ROUNDING
 from loiter.planning.problem import problem_of
 from loiter.verify import certify, certify_arrival, certify_slot
 from verify.certificates import altered, certified
@@ -76,6 +78,14 @@ def test_a_slot_given_at_another_time_is_the_same(wind):
     assert {"target"} <= {r.name for r in refused.failed}
 
 
+@pytest.mark.parametrize("wind", WINDS)
+def test_a_slot_given_long_before_or_after_is_as_exact_as_that_time(wind):
+    for at_s in (1e4, -2e4, 1e5, -1e6):
+        m = plan(POSE, ORBIT, AIRCRAFT, wind, slot=Slot(200.0, at_s))
+        certified(certify_slot(m, Slot(200.0, at_s)))
+        assert not certify_slot(m, Slot(200.0, at_s + 6.0 * ROUNDING * abs(at_s))).valid
+
+
 def test_a_third_arc_longer_than_the_middle_one_violates_the_maximum_principle():
     problem, slot = scene(random_scenes(np.random.default_rng(2), 40, windy=False), 4)
     for other in later_roots(problem, slot):
@@ -115,6 +125,36 @@ def test_an_arrival_at_a_time_is_certified_for_its_place_and_time_alone(wind):
         certify_arrival(bent(m, 1.0 + 1e-6), time_s=60.0, bearing_deg=200.0),
     ):
         assert not wrong.valid
+
+
+def random_arrival(random):
+    """An arrival at random after up to a million times the time of a turn radius, its time and bearing."""
+    w = random.choice([0.0, random.uniform(0.0, 0.9)])
+    R = (1.0 + w) ** 2 * random.choice([1.0 + 1e-9, 10.0 ** random.uniform(0.0, 3.0)])
+    span = 50.0 * R * random.choice([1.0, 30.0])
+    pose = Pose(random.uniform(-span, span), random.uniform(-span, span), random.uniform(0.0, 360.0))
+    orbit, wind = Orbit(0.0, 0.0, 50.0 * R, random.choice(list(Turn))), Wind(w * 18.0, random.uniform(0.0, 360.0))
+    time_s, bearing_deg = 10.0 ** random.uniform(1.0, 6.4), random.uniform(0.0, 360.0)
+    try:
+        return plan_at(pose, orbit, UAV, wind, time_s=time_s, bearing_deg=bearing_deg), time_s, bearing_deg
+    except ImpossibleTime as e:
+        return plan_at(pose, orbit, UAV, wind, time_s=e.next_s, bearing_deg=bearing_deg), e.next_s, bearing_deg
+
+
+def test_arrivals_after_a_long_way_are_exact_and_forged_ones_are_refused():
+    """The longer the way, the less exactly an angle gives its length: the first one was late by 17 times its bound."""
+    pose, orbit = Pose(30.0, -35.0, 198.0), Orbit(0.0, 0.0, 50.0, Turn.CW)
+    m = plan_at(pose, orbit, UAV, time_s=1519.0, bearing_deg=107.0)
+    drawn, random = [(m, 1519.0, 107.0)], Random(6)
+    drawn += [random_arrival(random) for _ in range(40)]
+    for m, time_s, bearing_deg in drawn:
+        target = certified(certify_arrival(m, time_s=time_s, bearing_deg=bearing_deg)).residual("target")
+        moved_s, longest = 3.0 * ROUNDING * (time_s + 50.0 / 18.0), max(m.segments, key=lambda s: s.duration_s)
+        moved_deg, which = degrees(3.0 * target.bound * 50.0 / m.orbit.radius_m), m.segments.index(longest)
+        forged = [(m, time_s + moved_s, bearing_deg), (m, time_s, bearing_deg + moved_deg)]
+        forged += [(altered(m, which, by_s), time_s, bearing_deg) for by_s in (moved_s, -moved_s, -tau * 50.0 / 18.0)]
+        for wrong, at_s, where_deg in forged:
+            assert not certify_arrival(wrong, time_s=at_s, bearing_deg=where_deg).valid
 
 
 def bent(m, factor):

@@ -168,7 +168,7 @@ def certify_slot(maneuver: Maneuver, slot: Slot) -> SlotCertificate:
         psi=(start.psi1, start.psi2) if start else None,
         choice=_choice(trajectory),
         switches=tuple(switches_of(trajectory)),
-        residuals=tuple(_slot_residuals(trajectory, _slot_at_end(trajectory, slot), first)),
+        residuals=tuple(_slot_residuals(trajectory, slot, first)),
         others=_other_direction(maneuver, problem, slot),
         pieces=pieces,
         tie_s=resolution(trajectory.duration) * unit_s,
@@ -276,11 +276,14 @@ def _other_direction(maneuver: Maneuver, problem: Problem, slot: Slot) -> tuple[
     )
 
 
-def _slot_residuals(trajectory: Trajectory, slot: SlotState, first: LowerBound) -> Iterator[Residual]:
+def _slot_residuals(trajectory: Trajectory, given: Slot, first: LowerBound) -> Iterator[Residual]:
     """The conditions for an entry into a slot."""
-    accuracy, (q, e) = accuracy_in_wind(trajectory), trajectory.end
+    accuracy, (q, e), slot = accuracy_in_wind(trajectory), trajectory.end, _slot_at_end(trajectory, given)
     # The kernel arrives where it is within rounding of a double root, which is some roundings of the scene's size away.
     end = accuracy.end + DOUBLE_ROOT * rounding(abs(trajectory.start.q), trajectory.start.R, trajectory.duration)
+    # The sum of the pieces of a turn rounds its time by 64 units of 2^-52 at most, and with it the time since the slot
+    # was given; the slot moves at less than 2 over the ground.
+    end += 2.0 * ROUNDING * abs(given.at_s) / trajectory.problem.time_unit_s
     yield Residual("target", "q(T) is the place of the slot at T", abs(q - slot.place), end)
     yield Residual("course", "e(T) is its heading then", abs(e - slot.heading), end)
     yield Residual("join", "the last pose over the ground is where the circle is then", *join(trajectory, accuracy))

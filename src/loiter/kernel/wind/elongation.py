@@ -231,18 +231,23 @@ def path_of_length(ends: Ends, wanted: float, length_tolerance: float) -> ThreeA
     for stretch in stretches(ends):
         turns = turns_more(stretch, wanted, length_tolerance)
         if turns >= 0:
-            path = path_within(stretch, wanted - TWO_PI * turns)
+            rest = wanted - TWO_PI * turns
+            path = path_within(stretch, rest, length_tolerance)
             # Next to two arcs that touch up to rounding the length jumps.
-            if abs(path.length + TWO_PI * turns - wanted) <= SAME_LENGTH * (1.0 + wanted):
+            if abs(path.length - rest) <= SAME_LENGTH * (1.0 + wanted):
+                path = with_length(path, ends, rest)
                 found.append(path._replace(t1=path.t1 + TWO_PI * turns))
     return min(found, key=lambda path: path.turning, default=None)
 
 
-def path_within(stretch: Stretch, wanted: float) -> ThreeArcs:
-    """The path of a stretch with a length; its shortest or longest one where it has none."""
-    if wanted <= stretch.shortest.length:
+def path_within(stretch: Stretch, wanted: float, length_tolerance: float) -> ThreeArcs:
+    """The path of a stretch with a length; its shortest or longest one where that has it, up to `length_tolerance`.
+
+    Next to a straight middle piece the length is stationary: a rounding of it would bend that piece visibly.
+    """
+    if wanted <= stretch.shortest.length + length_tolerance:
         return stretch.shortest
-    if wanted >= stretch.longest.length:
+    if wanted >= stretch.longest.length - length_tolerance:
         return stretch.longest
     low, high = stretch.shorter, stretch.longer
     for _ in range(HALVINGS):
@@ -252,6 +257,22 @@ def path_within(stretch: Stretch, wanted: float) -> ThreeArcs:
         else:
             high = middle
     return path_at(stretch.family, low)
+
+
+def with_length(path: ThreeArcs, ends: Ends, wanted: float) -> ThreeArcs:
+    """The path with exactly a length that it nearly has, and with exactly the heading at its end.
+
+    A rounding of the angle that gives a path changes the length t of a long middle arc by some roundings of t^2 over
+    its chord, and its curvature by a rounding, that is the angle turned by one of t. An arc of the length missing that
+    turns by the angle missing has the same chord to roundings of t.
+    """
+    first, k, last, t1, t2, t3 = path
+    turned = atan2(ends.c0 * ends.s - ends.s0 * ends.c, ends.c0 * ends.c + ends.s0 * ends.s)
+    missing = less_whole_turns(turned - first * t1 - k * t2 - last * t3)
+    middle, is_exact = wanted - t1 - t3, abs(path.length - wanted) <= ROUNDING * (1.0 + wanted)
+    if (is_exact and abs(missing) <= ROUNDING) or middle <= 0.0:
+        return path
+    return path._replace(curvature=max(-1.0, min((k * t2 + missing) / middle, 1.0)), t2=middle)
 
 
 class Arrival(NamedTuple):
