@@ -13,6 +13,7 @@ from loiter.errors import InvalidArgument, RadiusTooSmall, WindTooStrong
 from loiter.planning.leg import climb_time_s
 from planning.landings import direction, enumerated_s, random_landing
 from planning.legs import SOONER
+from planning.sampled_legs import soonest_s
 
 UAV = Aircraft(18.0, max_bank_deg=35.0, climb_rate_m_s=2.5, descent_rate_m_s=3.0)
 RUNWAY = Runway(0.0, 0.0, 90.0, altitude_m=500.0)
@@ -81,17 +82,24 @@ def test_a_plan_flown_comes_down_the_glide_slope_over_the_runway(drawn):
 
 
 @few
-@given(landings, st.floats(1.0, 500.0))
-def test_a_longer_final_and_a_side_that_is_given_are_never_sooner(drawn, more):
-    landing, uav, _ = drawn
-    p = plan_landing(landing, uav)
-    # Where no path ends just in time a place farther out may be better.
-    assume(p.held_deg == 0.0 or p.exit_s <= climb_time_s(p.leg, uav) * (1.0 + 1e-9))
+@given(st.one_of(landings, windy_landings), st.floats(1.0, 500.0))
+def test_a_longer_final_is_never_sooner_and_both_sides_take_the_same_time(drawn, more):
+    landing, uav, wind = drawn
+    p = plan_landing(landing, uav, wind)
     least = p.duration_s * (1.0 - 1e-9)
-    assert plan_landing(replace(landing, final_m=landing.final_m + more), uav).duration_s >= least
-    if landing.turn == "either":
-        both = [plan_landing(replace(landing, turn=turn), uav).duration_s for turn in ("cw", "ccw")]
-        assert p.duration_s == pytest.approx(min(both), rel=1e-8)
+    assert plan_landing(replace(landing, final_m=landing.final_m + more), uav, wind).duration_s >= least
+    both = [plan_landing(replace(landing, turn=turn), uav, wind).duration_s for turn in ("cw", "ccw")]
+    assert both == pytest.approx([p.duration_s] * 2, rel=1e-8)
+
+
+def test_where_no_path_ends_just_in_time_the_next_possible_one_is_flown():
+    """By first paths it is over the threshold 1.7 s later; no path at random is there sooner."""
+    random = np.random.default_rng(5)
+    landing, uav, wind = [random_landing(random) for _ in range(316)][-1]
+    p = plan_landing(landing, uav)
+    assert p.exit_s > climb_time_s(p.leg, uav) + 0.1
+    assert p.duration_s == pytest.approx(72.584808, rel=1e-7)
+    assert p.exit_s <= soonest_s(random, landing.leg(p.turn), uav, wind) * (1.0 + 1e-6) <= p.exit_s + 0.1
 
 
 @settings(max_examples=8, deadline=None)

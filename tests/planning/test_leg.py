@@ -14,6 +14,7 @@ from loiter.errors import InvalidArgument, OutOfRange, RadiusTooSmall
 from loiter.kernel.wind.held import elliptic, time_held, width_held
 from planning.flying import fly
 from planning.legs import SOONER, enumerated_s, hold_times, random_leg
+from planning.sampled_legs import jumping_leg, soonest_s
 
 UAV = Aircraft(18.0, max_bank_deg=35.0, climb_rate_m_s=2.5, descent_rate_m_s=4.0)
 POSE, ORBIT, EXIT = Pose(-400.0, 120.0, 90.0), Orbit(0.0, 0.0, 120.0), (600.0, 0.0)
@@ -111,6 +112,25 @@ def test_an_altitude_over_which_first_paths_jump_is_reached_just_in_time():
         assert plan.exit_s == pytest.approx(abs(leg.climb_m) / uav.descent_rate_m_s, rel=1e-12)
         assert plan.duration_s < enumerated_s(leg, uav, Wind(0.0, 0.0)) * (1.0 - less)
         assert plan.held_deg > 30.0
+
+
+def test_an_altitude_that_no_path_reaches_in_time_is_left_on_the_next_possible_one():
+    """By first paths alone the exit is after 27.17 s: after 14.6 s no path to it is possible before this one."""
+    pose, orbit = Pose(146.198, -110.067, 356.539, altitude_m=0.0), Orbit(0.0, 0.0, 56.577, "ccw")
+    uav = Aircraft(18.0, min_turn_radius_m=50.0, climb_rate_m_s=1.0)
+    leg = Leg(pose, orbit, (5.727, 93.309), altitude_m=14.577)
+    p = plan_leg(leg, uav)
+    assert (p.entry.word, p.held_deg) == ("RLR", 0.0)
+    assert p.exit_s == pytest.approx(17.579459385, rel=1e-9)
+    assert p.exit_s == pytest.approx(soonest_s(np.random.default_rng(1), leg, uav, Wind(0.0, 0.0)), rel=1e-6)
+
+
+@pytest.mark.parametrize("windy", [False, True])
+def test_where_first_paths_jump_no_path_at_random_is_sooner(windy):
+    random = np.random.default_rng(7)
+    for _ in range(1 if windy else 6):
+        leg, uav, wind, p = jumping_leg(random, windy)
+        assert soonest_s(random, leg, uav, wind) >= p.exit_s * (1.0 - 1e-6)
 
 
 def test_without_a_hold_the_leg_is_the_shortest_path_to_the_exit():

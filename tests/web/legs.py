@@ -14,7 +14,7 @@ from web.engine import FLAT, answered, difference, difference_of_files, drawn, o
 # Times agree to this share of 1 s and themselves.
 CLOSE = 1e-9
 TIMES = ("duration_s", "exit_s", "straight_s", "join_s", "held_s")
-TEXTS = ("turn", "is_least", "sentence", "instruction", "command", "python", "altitude_m")
+TEXTS = ("turn", "sentence", "instruction", "command", "python", "altitude_m")
 
 
 def asked_of(chance, scene):

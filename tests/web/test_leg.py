@@ -68,7 +68,7 @@ def test_a_leg_is_shown_with_its_altitudes_files_and_ghost(opened):
     plan = assert_shows_the_leg(page)
     headline = page.locator("#instruction").inner_text().replace("\xa0", " ")
     assert f"Leave in {time_text(plan.exit_s)}, at the point in {time_text(plan.duration_s)}." in headline
-    assert "the first path to where the hold begins" in page.locator("#verdict").text_content()
+    assert "no other way in and round is sooner" in page.locator("#verdict").text_content()
     assert page.locator("#candidates li").count() == 0
     # The ghost half way through the climb.
     profile = page.locator("#altitude-profile")

@@ -18,7 +18,7 @@ from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Segment, Turn, Wind, directions
 from loiter.planning.problem import Problem, segment
 
-# Longer paths, in turn radii, would end beside the place by more than 1e-9 of their length.
+# Of longer paths, in turn radii, the angle that gives them does not give the length to 1e-9 of it.
 LONGEST = 1e6
 
 
@@ -84,6 +84,12 @@ def arrival_in(problem: Problem, turn: Turn, time_s: float, bearing_deg: float) 
     """The maneuver of `plan_at` in one direction; None where there is none."""
     path = _path(placed_arrival(problem, turn, time_s, bearing_deg))
     return None if path is None else _maneuver(problem, path, turn, time_s, bearing_deg)
+
+
+def next_arrival_s(problem: Problem, turn: Turn, time_s: float, bearing_deg: float) -> float:
+    """The least time, no less than `time_s`, at which a path arrives at the place in one direction, seconds."""
+    placed = placed_arrival(problem, turn, time_s, bearing_deg)
+    return next_time(placed.arrival, placed.time) * problem.time_unit_s
 
 
 def _path(one: PlacedArrival) -> ThreeArcs | None:

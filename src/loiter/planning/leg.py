@@ -14,7 +14,7 @@ from loiter.kernel.wind.hold import hold_pose, phase_of
 from loiter.kernel.wind.paths import WindScene
 from loiter.kernel.wind.way_out import Exit, WayOut, entry_before, exit_point, least_width, soonest_exit
 from loiter.kernel.wind.wind_search import scene_of
-from loiter.planning.arrival import arrival_in
+from loiter.planning.arrival import arrival_in, next_arrival_s
 from loiter.planning.compass import heading_of
 from loiter.planning.maneuver import MAX_SAMPLES, Maneuver, decimals_of, maneuver_values, pose_values
 from loiter.planning.model import (
@@ -43,7 +43,7 @@ MOST_HELD = 1e5 * tau
 # Times of plans that differ by less than this share are the same: rounding of the halvings that find them.
 SAME_TIME = 1e-9
 
-# Where an altitude is reached in time on a longer path alone, so many points of joining are tried, so far apart on the
+# Where a path that is longer than the first one leaves sooner, so many points of joining are tried, so far apart on the
 # circle, radians: two turns of them, and the last one that is allowed.
 BETWEEN_JOINS, LONGER_PATHS = tau / 24.0, 49
 
@@ -208,7 +208,8 @@ def plan_leg(leg: Leg, aircraft: Aircraft, wind: Wind | None = None) -> LegPlan:
 
     Both directions are compared where the circle's turn is *either*. The time on the circle counts from the point of
     joining, and the entry is the first path to that point, which need not be where `plan` joins: a hold of a given
-    time or altitude ends at the exit, so that the aircraft joins that long before it (docs/legs.md).
+    time or altitude ends at the exit, so that the aircraft joins that long before it. It is a longer path where the
+    exits of first paths jump over the altitude (docs/legs.md).
     Raises the errors of `plan`, `InvalidArgument` for a climb or descent without the aircraft's rate, and `OutOfRange`
     for a hold of more than 100,000 turns.
 
@@ -237,8 +238,7 @@ def _planned(leg: Leg, problem: Problem, climb_s: float) -> LegPlan:
     )
     _check_length(out, scene)
     found = soonest_exit(out, scene)
-    is_late = found.time > out.time * (1.0 + SAME_TIME)
-    hold = _hold_in_time(found, out, scene, problem) if is_late else None
+    hold = _hold_after_longer_path(found, out, scene, problem)
     if hold is None:
         entry, miss = entry_before(found, out, scene)
         hold = Hold(maneuver(problem, entry, miss), found.width, found.time - found.path.time)
@@ -281,25 +281,49 @@ class Hold(NamedTuple):
     time: float
 
 
-def _hold_in_time(late: Exit, out: WayOut, scene: WindScene, problem: Problem) -> Hold | None:
-    """A hold that ends just at the altitude, after a path onto the circle that is longer than the first one.
+def _hold_after_longer_path(first: Exit, out: WayOut, scene: WindScene, problem: Problem) -> Hold | None:
+    """The hold with the soonest exit after a path that is longer than a first one; None where `first` is as soon.
 
-    It is for altitudes over which the exits of first paths jump (docs/legs.md, section 3). Of the points of joining
-    that are tried it is the first at which there is such a path; None where there is none.
+    It is for altitudes over which the exits of first paths jump. Of all exits that are late enough, the soonest one can
+    be had after the least hold (docs/legs.md, section 3).
+    """
+    least, unit_s = least_width(out, scene), problem.time_unit_s
+    if first.width <= least or first.time <= out.time * (1.0 + SAME_TIME):
+        return None
+    hold = _hold_until(out.time, first, out, scene, problem)
+    if hold is None:
+        time = time_held(out.phase, least, scene.R, scene.wx, scene.wy)
+        bearing_deg = _join_bearing_deg(least, out, scene)
+        next_s = next_arrival_s(problem, problem.orbit.turn, (out.time - time) * unit_s, bearing_deg)
+        soonest = next_s / unit_s + time
+        if soonest < first.time * (1.0 - SAME_TIME):
+            hold = _hold_until(soonest, first, out, scene, problem)
+    return hold
+
+
+def _hold_until(exit_time: float, first: Exit, out: WayOut, scene: WindScene, problem: Problem) -> Hold | None:
+    """A hold that ends at exactly a time, earlier than `first`, after a path that is longer than the first one.
+
+    Of the points of joining that are tried it is the first at which there is such a path; None where there is none.
     """
     least = least_width(out, scene)
     for k in range(1, LONGER_PATHS + 1):
-        width = max(least, late.width - k * BETWEEN_JOINS if k < LONGER_PATHS else least)
+        width = max(least, first.width - k * BETWEEN_JOINS if k < LONGER_PATHS else least)
         time = time_held(out.phase, width, scene.R, scene.wx, scene.wy)
-        if time < out.time:
-            x, y, _, _, _ = hold_pose(out.phase - width, out.side, scene.R, scene.wx, scene.wy)
-            join_s = (out.time - time) * problem.time_unit_s
-            entry = arrival_in(problem, problem.orbit.turn, join_s, degrees(atan2(x, y)))
+        if time < exit_time:
+            join_s = (exit_time - time) * problem.time_unit_s
+            entry = arrival_in(problem, problem.orbit.turn, join_s, _join_bearing_deg(width, out, scene))
             if entry is not None:
                 return Hold(entry, width, time)
         if width == least:
             break
     return None
+
+
+def _join_bearing_deg(width: float, out: WayOut, scene: WindScene) -> float:
+    """The bearing of the point of joining before an angle of the circle, degrees."""
+    x, y, _, _, _ = hold_pose(out.phase - width, out.side, scene.R, scene.wx, scene.wy)
+    return degrees(atan2(x, y))
 
 
 def _check_length(out: WayOut, scene: WindScene) -> None:

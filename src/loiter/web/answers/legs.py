@@ -13,7 +13,7 @@ from loiter.fences.fence import Fence, check
 from loiter.io.document import PlacedProblem, maneuver_values
 from loiter.io.legs import leg_text
 from loiter.io.missions.items import Autopilot
-from loiter.planning.leg import SAME_TIME, HoldState, Leg, LegPlan, climb_time_s, hold_states, plan_leg
+from loiter.planning.leg import HoldState, Leg, LegPlan, climb_time_s, hold_states, plan_leg
 from loiter.planning.maneuver import pose_values
 from loiter.planning.model import Turn
 from loiter.planning.problem import Problem
@@ -43,7 +43,6 @@ def leg_plan(placed: PlacedProblem, asked: LegRequest) -> dict[str, Any]:
     """The plan of a leg: `LegPlan.to_dict`, with texts, the whole leg as one maneuver with its track, and altitudes.
 
     `altitudes` has times and altitudes between which the altitude changes evenly; None where the leg has none.
-    `is_least` is whether nothing is sooner at the point.
     """
     plan = _planned(placed, asked)
     leg, problem = plan.leg, _problem(placed, asked)
@@ -52,7 +51,6 @@ def leg_plan(placed: PlacedProblem, asked: LegRequest) -> dict[str, Any]:
         "instruction": leg_instruction(plan),
         "command": leg_command(problem, leg),
         "python": leg_python(problem, leg),
-        "is_least": _is_least(plan),
         "altitudes": _altitudes(plan),
         "maneuver": _whole(plan, placed),
     }
@@ -86,17 +84,6 @@ def _planned(placed: PlacedProblem, asked: LegRequest) -> LegPlan:
     problem = _problem(placed, asked)
     leg = Leg(problem.pose, problem.orbit, asked.exit_to, asked.hold_s, asked.turns, asked.altitude_m)
     return plan_leg(leg, problem.aircraft, problem.wind)
-
-
-def _is_least(plan: LegPlan) -> bool:
-    """Whether nothing is sooner at the point (docs/legs.md, section 3).
-
-    Otherwise an altitude has to be waited for that no path reaches just in time.
-    """
-    leg, climb_s = plan.leg, climb_time_s(plan.leg, plan.entry.aircraft)
-    is_late = climb_s > 0.0 and plan.exit_s > climb_s * (1.0 + SAME_TIME)
-    is_longer = plan.held_s > leg.hold_s * (1.0 + SAME_TIME) and plan.held_deg > 360.0 * leg.turns * (1.0 + SAME_TIME)
-    return not (is_late and is_longer and plan.entry.segments)
 
 
 def _altitudes(plan: LegPlan) -> dict[str, list[float]] | None:

@@ -42,9 +42,3 @@ function factsOf({ maneuver, duration_s, join_s, held_s, held_deg, exit_s }, { s
     part("div", {}, [part("dt", {}, [name]), part("dd", {}, [...value, ...(note ? [part("small", {}, [note])] : [])])]),
   );
 }
-
-/** What holds for a leg. @param {LegPlan} leg */
-export const legVerdict = ({ is_least }) =>
-  is_least
-    ? "Not checked for a leg. Its way in is the first path to where the hold begins: to join earlier is never sooner at the point."
-    : "Not checked for a leg. No path found ends just when the altitude is reached: this is the soonest by first paths, and something could be sooner.";

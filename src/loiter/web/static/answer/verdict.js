@@ -6,7 +6,6 @@
  * @import {PageState} from "../state/page_state.js"
  * @import {Certificate, Scene} from "../shared/types.js"
  */
-import { legVerdict } from "./leg_view.js";
 import { byId } from "../shared/dom.js";
 import { timeDifference, timeText } from "../shared/units.js";
 
@@ -28,7 +27,7 @@ export function verdictView(store) {
 /** @param {PageState} state @returns {{kind: "unchecked" | "waiting" | "valid" | "invalid", text: string}} */
 function verdictOf({ failure, faults, proof, answer, scene, clear, leg }) {
   if (failure) return { kind: "unchecked", text: "–" };
-  if (leg) return { kind: "unchecked", text: legVerdict(leg) };
+  if (leg) return { kind: "unchecked", text: "Not checked for a leg. By legs.md, section 3, no other way in and round is sooner at the point." };
   if (clear?.maneuver)
     return { kind: "unchecked", text: `Not checked of an entry round a fence. No clear entry takes less than ${timeText(clear.least_s ?? 0, scene)}.` };
   if (faults.certificate) return { kind: "unchecked", text: faults.certificate };

@@ -79,7 +79,7 @@ function leg_plan(placed, asked) {
 let leg, plan, problem;
 plan = _planned(placed, asked);
 [leg, problem] = iter([plan.leg, _problem(placed, asked)]);
-return bit_or(plan.to_dict(), new Map([["sentence", str(plan)], ["instruction", leg_instruction(plan)], ["command", leg_command(problem, leg)], ["python", leg_python(problem, leg)], ["is_least", _is_least(plan)], ["altitudes", _altitudes(plan)], ["maneuver", _whole(plan, placed)]]));
+return bit_or(plan.to_dict(), new Map([["sentence", str(plan)], ["instruction", leg_instruction(plan)], ["command", leg_command(problem, leg)], ["python", leg_python(problem, leg)], ["altitudes", _altitudes(plan)], ["maneuver", _whole(plan, placed)]]));
 }
 
 function leg_fence_check(placed, asked, fence, margin_m) {
@@ -1961,7 +1961,7 @@ bounds = list(iter(directions(problem.orbit.turn))).map((turn) => _no_arrival(tr
 first = min(bounds, { key: ((bound) => bound.time) });
 pieces = trajectory.pieces;
 start = (truth(pieces) ? item(pieces, 0).start : null);
-return SlotCertificate(maneuver, (truth(start) ? trajectory.lam : null), (truth(start) ? [start.psi1, start.psi2] : null), slot_certificate__choice(trajectory), tuple(switches_of(trajectory)), tuple(_slot_residuals(trajectory, _slot_at_end(trajectory, slot), first)), _other_direction(maneuver, problem, slot), pieces, mul(resolution(trajectory.duration), unit_s), false, slot, mul(first.time, unit_s));
+return SlotCertificate(maneuver, (truth(start) ? trajectory.lam : null), (truth(start) ? [start.psi1, start.psi2] : null), slot_certificate__choice(trajectory), tuple(switches_of(trajectory)), tuple(_slot_residuals(trajectory, slot, first)), _other_direction(maneuver, problem, slot), pieces, mul(resolution(trajectory.duration), unit_s), false, slot, mul(first.time, unit_s));
 }
 
 const Instant = struct(class extends Tuple {
@@ -2076,14 +2076,6 @@ needs = add(needs, ((leg.altitude_m != null) ? [`altitude_m=${repr(leg.altitude_
 asked = join_(", ", ["pose", "orbit", `exit_to=(${repr(east_m)}, ${repr(north_m)})`, ...iter(needs)]);
 lines = [...iter(_scene_lines(problem, "Leg, plan_leg")), `p = plan_leg(Leg(${str(asked)}), uav${str(_wind(problem))})`, "print(p)"];
 return join_("\n", lines);
-}
-
-function _is_least(plan) {
-let climb_s, is_late, is_longer, leg;
-[leg, climb_s] = iter([plan.leg, climb_time_s(plan.leg, plan.entry.aircraft)]);
-is_late = (gt(climb_s, 0.0) && gt(plan.exit_s, mul(climb_s, add(1.0, SAME_TIME))));
-is_longer = (gt(plan.held_s, mul(leg.hold_s, add(1.0, SAME_TIME))) && gt(plan.held_deg, mul(mul(360.0, leg.turns), add(1.0, SAME_TIME))));
-return !(truth(is_late) && truth(is_longer) && truth(plan.entry.segments));
 }
 
 function _altitudes(plan) {
@@ -2956,10 +2948,11 @@ return LINE;
 return (eq(len(trajectory.pieces), 3) ? BISECTOR : ANY);
 }
 
-function* _slot_residuals(trajectory, slot, first) {
-let accuracy, behind, bounds, e, end, last, later, note, off, q;
-[accuracy, [q, e]] = iter([accuracy_in_wind(trajectory), trajectory.end]);
+function* _slot_residuals(trajectory, given, first) {
+let accuracy, behind, bounds, e, end, last, later, note, off, q, slot;
+[accuracy, [q, e], slot] = iter([accuracy_in_wind(trajectory), trajectory.end, _slot_at_end(trajectory, given)]);
 end = add(accuracy.end, mul(DOUBLE_ROOT, kernel.rounding(abs(trajectory.start.q), trajectory.start.R, trajectory.duration)));
+end = add(end, div(mul(mul(2.0, ROUNDING), abs(given.at_s)), trajectory.problem.time_unit_s));
 yield Residual("target", "q(T) is the place of the slot at T", abs(sub(q, slot.place)), end);
 yield Residual("course", "e(T) is its heading then", abs(sub(e, slot.heading)), end);
 yield Residual("join", "the last pose over the ground is where the circle is then", ...iter(conditions_join(trajectory, accuracy)));
@@ -2976,12 +2969,6 @@ yield Residual("slot", "f (u - h k) >= 0 at T (5)", max(0.0, neg(behind)), mul(2
 }
 [later, note] = iter([max(sub(trajectory.duration, first.time), 0.0), _passes(trajectory.problem, first)]);
 yield Residual("first", "no path arrives before T", later, resolution(trajectory.duration), note);
-}
-
-function _slot_at_end(trajectory, slot) {
-let held;
-held = trajectory.problem.with_turn(held_turn(trajectory.maneuver));
-return _held_circle(trajectory, held, slot).after(trajectory.duration).state();
 }
 
 function _other_direction(maneuver, problem, slot) {
@@ -4246,6 +4233,12 @@ begin = end;
 }
 }
 
+function _slot_at_end(trajectory, slot) {
+let held;
+held = trajectory.problem.with_turn(held_turn(trajectory.maneuver));
+return _held_circle(trajectory, held, slot).after(trajectory.duration).state();
+}
+
 function _passes(problem, first) {
 let r, unit_s;
 [unit_s, r] = iter([problem.time_unit_s, problem.aircraft.turn_radius_m]);
@@ -4470,7 +4463,7 @@ return [east, north];
 }
 
 function leg__planned(leg, problem, climb_s) {
-let _, east, entry, exit_, found, hold, is_late, miss, north, orbit, out, point, r, scene, side, speed_m_s, straight_m, unit_s;
+let _, east, entry, exit_, found, hold, miss, north, orbit, out, point, r, scene, side, speed_m_s, straight_m, unit_s;
 [orbit, r, unit_s] = iter([problem.orbit, problem.aircraft.turn_radius_m, problem.time_unit_s]);
 scene = kernel.scene_of(problem.in_wind());
 [east, north] = iter([div(sub(item(leg.exit_to, 0), orbit.east_m), r), div(sub(item(leg.exit_to, 1), orbit.north_m), r)]);
@@ -4479,8 +4472,7 @@ point = kernel.exit_point(east, north, side, scene.R);
 out = WayOut(side, kernel.phase_of(...iter(point), side, scene.wx, scene.wy), div(leg.hold_s, unit_s), mul(math.tau, leg.turns), div(climb_s, unit_s));
 _check_length(out, scene);
 found = kernel.soonest_exit(out, scene);
-is_late = gt(found.time, mul(out.time, add(1.0, SAME_TIME)));
-hold = (truth(is_late) ? _hold_in_time(found, out, scene, problem) : null);
+hold = _hold_after_longer_path(found, out, scene, problem);
 if ((hold == null)) {
 [entry, miss] = iter(kernel.entry_before(found, out, scene));
 hold = leg_Hold(maneuver(problem, entry, miss), found.width, sub(found.time, found.path.time));
@@ -5332,25 +5324,23 @@ throw errors.OutOfRange(`the hold is too long: ${format(div(longest, math.tau), 
 }
 }
 
-function _hold_in_time(late, out, scene, problem) {
-let _, entry, join_s, k, least, time, width, x, y;
-least = kernel.least_width(out, scene);
-for (k of iter(range(1, add(LONGER_PATHS, 1)))) {
-width = max(least, (lt(k, LONGER_PATHS) ? sub(late.width, mul(k, BETWEEN_JOINS)) : least));
-time = kernel.time_held(out.phase, width, scene.R, scene.wx, scene.wy);
-if (lt(time, out.time)) {
-[x, y, _, _, _] = iter(kernel.hold_pose(sub(out.phase, width), out.side, scene.R, scene.wx, scene.wy));
-join_s = mul(sub(out.time, time), problem.time_unit_s);
-entry = arrival_in(problem, problem.orbit.turn, join_s, math.degrees(math.atan2(x, y)));
-if ((entry != null)) {
-return leg_Hold(entry, width, time);
-}
-}
-if (eq(width, least)) {
-break;
-}
-}
+function _hold_after_longer_path(first, out, scene, problem) {
+let bearing_deg, hold, least, next_s, soonest, time, unit_s;
+[least, unit_s] = iter([kernel.least_width(out, scene), problem.time_unit_s]);
+if ((le(first.width, least) || le(first.time, mul(out.time, add(1.0, SAME_TIME))))) {
 return null;
+}
+hold = _hold_until(out.time, first, out, scene, problem);
+if ((hold == null)) {
+time = kernel.time_held(out.phase, least, scene.R, scene.wx, scene.wy);
+bearing_deg = _join_bearing_deg(least, out, scene);
+next_s = next_arrival_s(problem, problem.orbit.turn, mul(sub(out.time, time), unit_s), bearing_deg);
+soonest = add(div(next_s, unit_s), time);
+if (lt(soonest, mul(first.time, sub(1.0, SAME_TIME)))) {
+hold = _hold_until(soonest, first, out, scene, problem);
+}
+}
+return hold;
 }
 
 const leg_Hold = struct(class extends Tuple {
@@ -5914,10 +5904,36 @@ slope = mul(k, sub(distance, 1.0));
 return div(sub(div(1.0, distance), div(mul(k, slope), add(1.0, mul(slope, slope)))), math.sqrt(add(1.0, mul(slope, slope))));
 }
 
-function arrival_in(problem, turn, time_s, bearing_deg) {
-let path;
-path = _path(placed_arrival(problem, turn, time_s, bearing_deg));
-return ((path == null) ? null : _maneuver(problem, path, turn, time_s, bearing_deg));
+function _hold_until(exit_time, first, out, scene, problem) {
+let entry, join_s, k, least, time, width;
+least = kernel.least_width(out, scene);
+for (k of iter(range(1, add(LONGER_PATHS, 1)))) {
+width = max(least, (lt(k, LONGER_PATHS) ? sub(first.width, mul(k, BETWEEN_JOINS)) : least));
+time = kernel.time_held(out.phase, width, scene.R, scene.wx, scene.wy);
+if (lt(time, exit_time)) {
+join_s = mul(sub(exit_time, time), problem.time_unit_s);
+entry = arrival_in(problem, problem.orbit.turn, join_s, _join_bearing_deg(width, out, scene));
+if ((entry != null)) {
+return leg_Hold(entry, width, time);
+}
+}
+if (eq(width, least)) {
+break;
+}
+}
+return null;
+}
+
+function _join_bearing_deg(width, out, scene) {
+let _, x, y;
+[x, y, _, _, _] = iter(kernel.hold_pose(sub(out.phase, width), out.side, scene.R, scene.wx, scene.wy));
+return math.degrees(math.atan2(x, y));
+}
+
+function next_arrival_s(problem, turn, time_s, bearing_deg) {
+let placed;
+placed = placed_arrival(problem, turn, time_s, bearing_deg);
+return mul(next_time(placed.arrival, placed.time), problem.time_unit_s);
 }
 
 const ClearEntry = struct(class extends Tuple {
@@ -6277,8 +6293,10 @@ best = np.minimum(best, _beside_three_arcs(same, u, turned, t));
 return best;
 }
 
-function _path(one) {
-return path_of_length(one.arrival.at(one.time), one.time, one.length_tolerance);
+function arrival_in(problem, turn, time_s, bearing_deg) {
+let path;
+path = _path(placed_arrival(problem, turn, time_s, bearing_deg));
+return ((path == null) ? null : _maneuver(problem, path, turn, time_s, bearing_deg));
 }
 
 function placed_arrival(problem, turn, time_s, bearing_deg) {
@@ -6293,13 +6311,19 @@ arrival = Arrival(Ends(c0, s0, sub(px, x), sub(py, y), c, s), wx, wy);
 return PlacedArrival(turn, arrival, time, div(kernel.rounding(x, y, add(R, time)), sub(1.0, kernel.length(wx, wy))));
 }
 
-function _maneuver(problem, path, turn, time_s, bearing_deg) {
-let east, end, miss_m, north, orbit, segments;
-segments = tuple(_segments(problem, path));
-[orbit, [east, north]] = iter([problem.orbit.after(time_s), heading_vector(bearing_deg)]);
-end = (truth(segments) ? item(segments, -1).end : problem.pose);
-miss_m = math.hypot(sub(sub(end.east_m, orbit.east_m), mul(orbit.radius_m, east)), sub(sub(end.north_m, orbit.north_m), mul(orbit.radius_m, north)));
-return Maneuver(problem.pose, problem.orbit, problem.aircraft, turn, segments, miss_m, problem.wind);
+function next_time(arrival, time) {
+let _, after, before, begin, crossings;
+begin = max(time, mul(kernel.interception(arrival.ends.x, arrival.ends.y, arrival.wx, arrival.wy), sub(1.0, ROUNDING)));
+for (_ of iter(range(MOST_WINDOWS))) {
+crossings = [begin, ...iter(crossing_times(arrival, begin, add(begin, WINDOW))), add(begin, WINDOW)];
+for ([before, after] of rows(pairwise(crossings))) {
+if (truth(is_in_time(arrival, mul(0.5, add(before, after))))) {
+return before;
+}
+}
+begin = add(begin, WINDOW);
+}
+return math.inf;
 }
 
 function* _zone_curves(zone, clearance_m) {
@@ -6663,19 +6687,17 @@ best = np.where(ok, np.minimum(best, np.abs(sub(same, mul(chord, np.exp(mul(mul(
 return best;
 }
 
-function path_of_length(ends, wanted, length_tolerance) {
-let found, path, stretch, turns;
-found = [];
-for (stretch of iter(stretches(ends))) {
-turns = turns_more(stretch, wanted, length_tolerance);
-if (ge(turns, 0)) {
-path = path_within(stretch, sub(wanted, mul(TWO_PI, turns)));
-if (le(abs(sub(add(path.length, mul(TWO_PI, turns)), wanted)), mul(SAME_LENGTH, add(1.0, wanted)))) {
-append_(found, replace(path, { t1: add(path.t1, mul(TWO_PI, turns)) }));
+function _path(one) {
+return path_of_length(one.arrival.at(one.time), one.time, one.length_tolerance);
 }
-}
-}
-return min(found, { key: ((path) => path.turning), default: null });
+
+function _maneuver(problem, path, turn, time_s, bearing_deg) {
+let east, end, miss_m, north, orbit, segments;
+segments = tuple(_segments(problem, path));
+[orbit, [east, north]] = iter([problem.orbit.after(time_s), heading_vector(bearing_deg)]);
+end = (truth(segments) ? item(segments, -1).end : problem.pose);
+miss_m = math.hypot(sub(sub(end.east_m, orbit.east_m), mul(orbit.radius_m, east)), sub(sub(end.north_m, orbit.north_m), mul(orbit.radius_m, north)));
+return Maneuver(problem.pose, problem.orbit, problem.aircraft, turn, segments, miss_m, problem.wind);
 }
 
 const Arrival = struct(class extends Tuple {
@@ -6716,20 +6738,22 @@ this.length_tolerance = length_tolerance;
 }
 }, ["turn", "arrival", "time", "length_tolerance"], 'PlacedArrival');
 
-function* _segments(problem, path) {
-let flown, here, k, letter, now, pieces, r, radius_m, straight, t;
-[here, now, r] = iter([problem.pose, 0.0, problem.aircraft.turn_radius_m]);
-pieces = [[float(path.first), path.t1], [path.curvature, path.t2], [float(path.last), path.t3]];
-for ([k, t] of rows(pieces)) {
-if (gt(t, ROUNDING)) {
-straight = lt(mul(mul(abs(k), t), t), ROUNDING);
-letter = (truth(straight) ? "S" : (gt(k, 0.0) ? "L" : "R"));
-radius_m = ((truth(straight) || eq(abs(k), 1.0)) ? r : div(r, abs(k)));
-flown = segment(here, now, letter, mul(t, r), problem.aircraft, problem.wind, radius_m);
-yield flown;
-[here, now] = iter([flown.end, add(now, flown.duration_s)]);
+function crossing_times(arrival, begin, end) {
+let first, found, halves, last;
+found = [];
+for ([first, last] of rows(OUTER_CONTROLS)) {
+found = add(found, straight_crossings(arrival, first, last, begin, end));
+}
+for (first of iter([1, -1])) {
+for (halves of iter([0, 1])) {
+found = add(found, arc_crossings(arrival, first, halves, begin, end));
 }
 }
+return sorted(found);
+}
+
+function is_in_time(arrival, time) {
+return is_reachable(arrival.at(time), time);
 }
 
 function* _polygon_curves(zone, clearance_m) {
@@ -6884,6 +6908,123 @@ shares = (ge(root_2, 0.0) ? list(iter([1.0, -1.0])).map((side) => div(add(neg(b)
 return list(iter(shares)).filter((share) => (le(0.0, share) && le(share, 1.0))).map((share) => share);
 }
 
+function path_of_length(ends, wanted, length_tolerance) {
+let found, path, rest, stretch, turns;
+found = [];
+for (stretch of iter(stretches(ends))) {
+turns = turns_more(stretch, wanted, length_tolerance);
+if (ge(turns, 0)) {
+rest = sub(wanted, mul(TWO_PI, turns));
+path = path_within(stretch, rest, length_tolerance);
+if (le(abs(sub(path.length, rest)), mul(SAME_LENGTH, add(1.0, wanted)))) {
+path = with_length(path, ends, rest);
+append_(found, replace(path, { t1: add(path.t1, mul(TWO_PI, turns)) }));
+}
+}
+}
+return min(found, { key: ((path) => path.turning), default: null });
+}
+
+function* _segments(problem, path) {
+let flown, here, k, letter, now, pieces, r, radius_m, straight, t;
+[here, now, r] = iter([problem.pose, 0.0, problem.aircraft.turn_radius_m]);
+pieces = [[float(path.first), path.t1], [path.curvature, path.t2], [float(path.last), path.t3]];
+for ([k, t] of rows(pieces)) {
+if (gt(t, ROUNDING)) {
+straight = lt(mul(mul(abs(k), t), t), ROUNDING);
+letter = (truth(straight) ? "S" : (gt(k, 0.0) ? "L" : "R"));
+radius_m = ((truth(straight) || eq(abs(k), 1.0)) ? r : div(r, abs(k)));
+flown = segment(here, now, letter, mul(t, r), problem.aircraft, problem.wind, radius_m);
+yield flown;
+[here, now] = iter([flown.end, add(now, flown.duration_s)]);
+}
+}
+}
+
+function straight_crossings(arrival, first, last, begin, end) {
+let a, b, dx, dy, ends, excess, found, i, scene, slot, steps, times, values, within, wx, wy;
+[ends, wx, wy] = iter(arrival);
+scene = WindScene(0.0, 0.0, ends.c0, ends.s0, 1.0, wx, wy, 0.0);
+slot = slots_Slot(1, 0.0);
+excess = function (time) {
+let x, y;
+[x, y] = iter([sub(ends.x, mul(wx, time)), sub(ends.y, mul(wy, time))]);
+return kernel.excess_at(first, last, SlotPose(time, time, x, y, ends.c, ends.s, 1.0, 0.0, 0.0), slot, scene).value;
+};
+within = [begin, end];
+if (ne(first, last)) {
+[dx, dy] = iter([add(sub(ends.x, mul(last, ends.s)), mul(first, ends.s0)), sub(add(ends.y, mul(last, ends.c)), mul(first, ends.c0))]);
+within = add(within, list(iter(kernel.time_within(dx, dy, wx, wy, 2.0))).filter((time) => (lt(begin, time) && lt(time, end))).map((time) => time));
+}
+found = sliced(sorted(within), 1, -1, null);
+for ([a, b] of rows(pairwise(sorted(within)))) {
+if ((ne(first, last) && lt(apart_at(arrival, first, last, mul(0.5, add(a, b))), 2.0))) {
+continue;
+}
+steps = math.ceil(mul(2.0, sub(b, a)));
+times = list(iter(range(add(steps, 1)))).map((i) => add(a, div(mul(sub(b, a), i), steps)));
+values = list(iter(times)).map((time) => excess(time));
+for (i of iter(range(steps))) {
+if ((ge(item(values, i), 0.0) && gt(0.0, item(values, add(i, 1))) && gt(item(values, add(i, 1)), sub(item(values, i), math.pi)))) {
+append_(found, root_between(excess, item(times, i), item(times, add(i, 1))));
+}
+}
+}
+return found;
+}
+
+function arc_crossings(arrival, first, halves, begin, end) {
+let a, b, bends, dx, dy, ends, first_turn, half, inflection, slope, splits, turns, value, wx, wy;
+[ends, wx, wy] = iter(arrival);
+[dx, dy] = iter([sub(ends.x, mul(first, sub(ends.s, ends.s0))), add(ends.y, mul(first, sub(ends.c, ends.c0)))]);
+half = sub(mul(math.pi, halves), mul(0.5, kernel.angle(kernel.arc_rotation(first, ends.c0, ends.s0, ends.c, ends.s))));
+value = function (time) {
+let across, x, y;
+[x, y, across] = iter([sub(dx, mul(wx, time)), sub(dy, mul(wy, time)), math.sin(add(mul(0.5, half), mul(0.25, time)))]);
+return sub(add(mul(x, x), mul(y, y)), mul(mul(16.0, across), across));
+};
+slope = function (time) {
+return sub(mul(-2.0, add(mul(wx, sub(dx, mul(wx, time))), mul(wy, sub(dy, mul(wy, time))))), mul(4.0, math.sin(add(half, mul(0.5, time)))));
+};
+inflection = math.acos(add(mul(wx, wx), mul(wy, wy)));
+first_turn = math.floor(div(add(half, mul(0.5, begin)), TWO_PI));
+turns = range(sub(first_turn, 1), add(add(first_turn, math.ceil(div(mul(0.5, sub(end, begin)), TWO_PI))), 2));
+bends = list(iter([neg(inflection), inflection])).flatMap((m) => list(iter(turns)).map((k) => mul(2.0, sub(add(m, mul(TWO_PI, k)), half))));
+splits = [begin, ...iter(sorted(list(iter(bends)).filter((time) => (lt(begin, time) && lt(time, end))).map((time) => time))), end];
+for ([a, b] of rows(pairwise(tuple(splits)))) {
+if (lt(mul(slope(a), slope(b)), 0.0)) {
+append_(splits, root_between(slope, a, b));
+}
+}
+return list(iter(pairwise(sorted(splits)))).map((one) => iter(one)).filter(([a, b]) => (le(mul(value(a), value(b)), 0.0) && ne(value(b), 0.0))).map(([a, b]) => root_between(value, a, b));
+}
+
+function is_reachable(ends, wanted) {
+return any(list(iter(stretches(ends))).map((stretch) => ge(turns_more(stretch, wanted, 0.0), 0)));
+}
+
+function _forbidden_left(zone) {
+let area, following;
+following = [...iter(sliced(zone.corners, 1, null, null)), item(zone.corners, 0)];
+area = sum(list(iter(zip(zone.corners, following))).map((one) => iter(one)).map(([[x0, y0], [x1, y1]]) => sub(mul(x0, y1), mul(x1, y0))));
+return (ne(gt(area, 0.0), zone.inclusion) ? zone.corners : sliced(zone.corners, null, null, -1));
+}
+
+function* _left_words(x, y, turned) {
+let ahead, course, cross, far, first, half, last, left_x, left_y, right_x, right_y;
+[left_x, left_y] = iter([sub(x, np.sin(turned)), sub(add(y, np.cos(turned)), 1.0)]);
+[right_x, right_y] = iter([add(x, np.sin(turned)), sub(sub(y, np.cos(turned)), 1.0)]);
+far = np.hypot(left_x, left_y);
+ahead = np.where(lt(far, WHOLE_TURN), 0.0, np.arctan2(left_y, left_x));
+yield [[1.0, 0.0, 1.0], [_arc(ahead), far, _arc(sub(turned, ahead))]];
+cross = np.sqrt(sub(add(pow(right_x, 2), pow(right_y, 2)), 4.0));
+course = add(np.arctan2(right_y, right_x), np.arctan2(2.0, cross));
+yield [[1.0, 0.0, -1.0], [_arc(course), cross, _arc(sub(course, turned))]];
+half = np.arccos(mul(0.25, far));
+[first, last] = iter([_arc(add(add(ahead, half), mul(0.5, math.pi))), _arc(sub(add(sub(turned, ahead), half), mul(1.5, math.pi)))]);
+yield [[1.0, -1.0, 1.0], [first, add(math.pi, mul(2.0, half)), last]];
+}
+
 function* stretches(ends) {
 let a, arcs, b, family, middle, one, other, spare, touching;
 for (family of iter(families(ends))) {
@@ -6918,12 +7059,12 @@ turns = (gt(short, 0.0) ? math.ceil(div(short, TWO_PI)) : 0);
 return (ge(sub(wanted, mul(TWO_PI, turns)), sub(stretch.shortest.length, length_tolerance)) ? turns : -1);
 }
 
-function path_within(stretch, wanted) {
+function path_within(stretch, wanted, length_tolerance) {
 let _, high, low, middle;
-if (le(wanted, stretch.shortest.length)) {
+if (le(wanted, add(stretch.shortest.length, length_tolerance))) {
 return stretch.shortest;
 }
-if (ge(wanted, stretch.longest.length)) {
+if (ge(wanted, sub(stretch.longest.length, length_tolerance))) {
 return stretch.longest;
 }
 [low, high] = iter([stretch.shorter, stretch.longer]);
@@ -6938,26 +7079,67 @@ high = middle;
 return path_at(stretch.family, low);
 }
 
-function _forbidden_left(zone) {
-let area, following;
-following = [...iter(sliced(zone.corners, 1, null, null)), item(zone.corners, 0)];
-area = sum(list(iter(zip(zone.corners, following))).map((one) => iter(one)).map(([[x0, y0], [x1, y1]]) => sub(mul(x0, y1), mul(x1, y0))));
-return (ne(gt(area, 0.0), zone.inclusion) ? zone.corners : sliced(zone.corners, null, null, -1));
+function with_length(path, ends, wanted) {
+let first, is_exact, k, last, middle, missing, t1, t2, t3, turned;
+[first, k, last, t1, t2, t3] = iter(path);
+turned = math.atan2(sub(mul(ends.c0, ends.s), mul(ends.s0, ends.c)), add(mul(ends.c0, ends.c), mul(ends.s0, ends.s)));
+missing = kernel.less_whole_turns(sub(sub(sub(turned, mul(first, t1)), mul(k, t2)), mul(last, t3)));
+[middle, is_exact] = iter([sub(sub(wanted, t1), t3), le(abs(sub(path.length, wanted)), mul(ROUNDING, add(1.0, wanted)))]);
+if (((truth(is_exact) && le(abs(missing), ROUNDING)) || le(middle, 0.0))) {
+return path;
+}
+return replace(path, { curvature: max(-1.0, min(div(add(mul(k, t2), missing), middle), 1.0)), t2: middle });
 }
 
-function* _left_words(x, y, turned) {
-let ahead, course, cross, far, first, half, last, left_x, left_y, right_x, right_y;
-[left_x, left_y] = iter([sub(x, np.sin(turned)), sub(add(y, np.cos(turned)), 1.0)]);
-[right_x, right_y] = iter([add(x, np.sin(turned)), sub(sub(y, np.cos(turned)), 1.0)]);
-far = np.hypot(left_x, left_y);
-ahead = np.where(lt(far, WHOLE_TURN), 0.0, np.arctan2(left_y, left_x));
-yield [[1.0, 0.0, 1.0], [_arc(ahead), far, _arc(sub(turned, ahead))]];
-cross = np.sqrt(sub(add(pow(right_x, 2), pow(right_y, 2)), 4.0));
-course = add(np.arctan2(right_y, right_x), np.arctan2(2.0, cross));
-yield [[1.0, 0.0, -1.0], [_arc(course), cross, _arc(sub(course, turned))]];
-half = np.arccos(mul(0.25, far));
-[first, last] = iter([_arc(add(add(ahead, half), mul(0.5, math.pi))), _arc(sub(add(sub(turned, ahead), half), mul(1.5, math.pi)))]);
-yield [[1.0, -1.0, 1.0], [first, add(math.pi, mul(2.0, half)), last]];
+const slots_Slot = struct(class extends Tuple {
+constructor(side, phase) {
+super();
+this.side = side;
+this.phase = phase;
+
+}
+}, ["side", "phase"], 'slots_Slot');
+
+const SlotPose = struct(class extends Tuple {
+constructor(width, time, x, y, c, s, advance, turning, turned) {
+super();
+this.width = width;
+this.time = time;
+this.x = x;
+this.y = y;
+this.c = c;
+this.s = s;
+this.advance = advance;
+this.turning = turning;
+this.turned = turned;
+
+}
+}, ["width", "time", "x", "y", "c", "s", "advance", "turning", "turned"], 'SlotPose');
+
+function apart_at(arrival, first, last, time) {
+let c, c0, s, s0, x, y;
+[c0, s0, x, y, c, s] = iter(arrival.at(time));
+return kernel.length(add(sub(x, mul(last, s)), mul(first, s0)), sub(add(y, mul(last, c)), mul(first, c0)));
+}
+
+function root_between(function_, a, b) {
+let _, middle, rises;
+rises = lt(function_(a), 0.0);
+for (_ of iter(range(elongation_HALVINGS))) {
+middle = mul(0.5, add(a, b));
+if (eq(lt(function_(middle), 0.0), rises)) {
+a = middle;
+} else {
+b = middle;
+}
+}
+return b;
+}
+
+function _arc(angle) {
+let within;
+within = np.mod(angle, math.tau);
+return np.where(gt(within, sub(math.tau, WHOLE_TURN)), 0.0, within);
 }
 
 function* families(ends) {
@@ -7036,12 +7218,6 @@ t2 = ((eq(left, 0.0) && gt(0.0, ahead)) ? math.inf : (eq(left, 0.0) ? chord : di
 t1 = mul(first, sub(add(alpha, azimuth), math.atan2(ends.c0, neg(ends.s0))));
 t3 = mul(last, sub(sub(math.atan2(ends.c, neg(ends.s)), azimuth), beta));
 return ThreeArcs(first, curvature_at(family, alpha), last, mod(t1, TWO_PI), t2, mod(t3, TWO_PI));
-}
-
-function _arc(angle) {
-let within;
-within = np.mod(angle, math.tau);
-return np.where(gt(within, sub(math.tau, WHOLE_TURN)), 0.0, within);
 }
 
 const Family = struct(class extends Tuple {
@@ -7178,7 +7354,6 @@ const IN_WIND = Formulation([Condition("target", "|q(T)| = R", distance_from_cir
 const SHORTEST_PERIOD_S = 10.0;
 const PERIOD = 4.0;
 const BAND = Band();
-const SAME_TIME = 1e-09;
 const HOLD_LETTERS = new Map([[Turn.CW, "R"], [Turn.CCW, "L"]]);
 const SAME_CORNER_M = 1e-06;
 const LEAST_MARGIN_M = 5.0;
@@ -7284,8 +7459,7 @@ const ZOOMS = 12;
 const LARGEST_K = 10.0;
 const FIELD_SHARE = 0.9;
 const MOST_HELD = mul(100000.0, math.tau);
-const LONGER_PATHS = 49;
-const BETWEEN_JOINS = div(math.tau, 24.0);
+const SAME_TIME = 1e-09;
 const STILL_AIR_GAP_M = mul(10.0, TOUCH_M);
 const CHORD_ERROR_M = 0.01;
 const WIND_GAP_M = mul(2.1, CHORD_ERROR_M);
@@ -7303,22 +7477,26 @@ const SCANNED_DIRECTIONS = 720;
 const STEPS_IN_STILL_AIR = tuple(list(iter(range(4, 34))).map((k) => pow(2.0, neg(k))));
 const STEPS_IN_WIND = [pow(2.0, -6), pow(2.0, -9), pow(2.0, -12), pow(2.0, -15)];
 const CLOSING = 8.0;
+const LONGER_PATHS = 49;
+const BETWEEN_JOINS = div(math.tau, 24.0);
 const SAME_TIME_S = 0.05;
 const UNKNOWN = -1;
 const CLEAR = 1;
 const BATCH = 48;
 const NO_PIECE_M = 1e-08;
 const LONGEST = 1000000.0;
+const MOST_WINDOWS = 10000;
+const WINDOW = 8.0;
 const JOINS = 48;
 const LINE_STEP = 0.5;
 const MOST_ON_LINE = 24;
 const ARC_STEP_RAD = div(math.pi, 12.0);
 const SIX = list(iter([[1, 0, 1], [-1, 0, -1], [1, 0, -1], [-1, 0, 1], [1, -1, 1], [-1, 1, -1]])).map((one) => iter(one)).map(([u, v, w]) => kernel.set_of(arrays.encode(u, v, w)));
 const PIECE_M = 0.001;
-const SAME_LENGTH = 1e-09;
-const elongation_HALVINGS = 70;
-const WHOLE_TURN = 1e-09;
 const OUTER_CONTROLS = [[1, 1], [-1, -1], [1, -1], [-1, 1]];
+const SAME_LENGTH = 1e-09;
+const WHOLE_TURN = 1e-09;
+const elongation_HALVINGS = 70;
 const BESIDE = 1e-07;
 
 export { plan, certificate, first_maneuver, lap, race, leg_plan, leg_fence_check, leg_file, fence_check, clear_plan, clear_maneuver, CircleZone, PolygonZone, Fence, _check_points, FILE_FORMATS, SaveArguments, AltitudeDatum, AUTOPILOTS, JSON_FIELDS, Pose, Orbit, Aircraft, Wind, Problem, Slot, slot_pose, heading_vector, Maneuver, drawn_svg, LocalFrame, PlacedProblem, _kind, NARROW, SHARE, JUMP, LARGEST_GAP, VANISHING };

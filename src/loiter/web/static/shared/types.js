@@ -79,7 +79,6 @@
  * @property {string} instruction
  * @property {string} command
  * @property {string} python
- * @property {boolean} is_least  whether nothing is sooner at the point
  * @property {{time_s: number[], altitude_m: number[]} | null} altitudes
  * @property {Maneuver} maneuver  the whole leg, with its track
  *
