@@ -1,6 +1,6 @@
 // @ts-check
 /**
- * What the page says of a leg: its numbers in place of those of the entry, and what holds for it.
+ * What the page says of a leg: its numbers in place of those of the entry.
  *
  * @import {Store} from "../state/store.js"
  * @import {PageState} from "../state/page_state.js"
