@@ -269,8 +269,10 @@ def with_length(path: ThreeArcs, ends: Ends, wanted: float) -> ThreeArcs:
     first, k, last, t1, t2, t3 = path
     turned = atan2(ends.c0 * ends.s - ends.s0 * ends.c, ends.c0 * ends.c + ends.s0 * ends.s)
     missing = less_whole_turns(turned - first * t1 - k * t2 - last * t3)
-    middle, is_exact = wanted - t1 - t3, abs(path.length - wanted) <= ROUNDING * (1.0 + wanted)
-    if (is_exact and abs(missing) <= ROUNDING) or middle <= 0.0:
+    # Half of what `certify_arrival` allows: conversions to seconds and back, and sums, round too.
+    tolerance, middle = 0.5 * ROUNDING, wanted - t1 - t3
+    is_exact = abs(path.length - wanted) <= tolerance * (1.0 + wanted) and abs(missing) <= tolerance
+    if is_exact or middle <= 0.0:
         return path
     return path._replace(curvature=max(-1.0, min((k * t2 + missing) / middle, 1.0)), t2=middle)
 

@@ -7080,12 +7080,13 @@ return path_at(stretch.family, low);
 }
 
 function with_length(path, ends, wanted) {
-let first, is_exact, k, last, middle, missing, t1, t2, t3, turned;
+let first, is_exact, k, last, middle, missing, t1, t2, t3, tolerance, turned;
 [first, k, last, t1, t2, t3] = iter(path);
 turned = math.atan2(sub(mul(ends.c0, ends.s), mul(ends.s0, ends.c)), add(mul(ends.c0, ends.c), mul(ends.s0, ends.s)));
 missing = kernel.less_whole_turns(sub(sub(sub(turned, mul(first, t1)), mul(k, t2)), mul(last, t3)));
-[middle, is_exact] = iter([sub(sub(wanted, t1), t3), le(abs(sub(path.length, wanted)), mul(ROUNDING, add(1.0, wanted)))]);
-if (((truth(is_exact) && le(abs(missing), ROUNDING)) || le(middle, 0.0))) {
+[tolerance, middle] = iter([mul(0.5, ROUNDING), sub(sub(wanted, t1), t3)]);
+is_exact = (le(abs(sub(path.length, wanted)), mul(tolerance, add(1.0, wanted))) && le(abs(missing), tolerance));
+if ((truth(is_exact) || le(middle, 0.0))) {
 return path;
 }
 return replace(path, { curvature: max(-1.0, min(div(add(mul(k, t2), missing), middle), 1.0)), t2: middle });
