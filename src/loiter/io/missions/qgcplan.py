@@ -122,17 +122,17 @@ def _common_mode(mission: Mission) -> int:
     return ALTITUDE_MODES[Frame(frames.pop())] if len(frames) == 1 else 0
 
 
-def _written(number: int, item: MissionItem) -> dict[str, Any]:
-    numbers = (*item.params, item.latitude_deg, item.longitude_deg, item.altitude_m)
+def _written(number: int, one: MissionItem) -> dict[str, Any]:
+    numbers = (*one.params, one.latitude_deg, one.longitude_deg, one.altitude_m)
     params = [None if isnan(value) else value for value in numbers]
     return {
         "AMSLAltAboveTerrain": None,
         "Altitude": params[-1],
-        "AltitudeMode": ALTITUDE_MODES.get(Frame(item.frame), 0),
-        "autoContinue": item.autocontinue,
-        "command": int(item.command),
+        "AltitudeMode": ALTITUDE_MODES.get(Frame(one.frame), 0),
+        "autoContinue": one.autocontinue,
+        "command": int(one.command),
         "doJumpId": number,
-        "frame": int(item.frame),
+        "frame": int(one.frame),
         "params": params,
         "type": "SimpleItem",
     }

@@ -335,6 +335,9 @@ return table(vertices(arguments_.maneuver, counts), arguments_.frame, _above_sea
 function _plan(ending, arguments_) {
 let airspeed_m_s, fence;
 fence = ((arguments_.site == null) ? null : arguments_.site.fence_document);
+if ((arguments_.fence != null)) {
+fence = fence_document(arguments_.fence);
+}
 airspeed_m_s = arguments_.maneuver.aircraft.airspeed_m_s;
 return qgcplan(_mission(ending, arguments_), arguments_.autopilot, airspeed_m_s, fence);
 }
@@ -528,6 +531,13 @@ function _above_sea_m(arguments_) {
 return ((arguments_.altitude_m == null) ? null : arguments_.datum.above_sea_m(arguments_.altitude_m));
 }
 
+function fence_document(fence) {
+let circles, polygons;
+circles = list(iter(fence.zones)).filter((zone) => truth(isinstance(zone, PlacedCircle))).map((zone) => new Map([["circle", new Map([["center", [zone.latitude_deg, zone.longitude_deg]], ["radius", zone.radius_m]])], ["inclusion", zone.inclusion], ["version", AREA_VERSION]]));
+polygons = list(iter(fence.zones)).filter((zone) => truth(isinstance(zone, PlacedPolygon))).map((zone) => new Map([["polygon", list(iter(_clockwise(zone.corners))).map((corner) => list(corner))], ["inclusion", zone.inclusion], ["version", AREA_VERSION]]));
+return new Map([["circles", circles], ["polygons", polygons], ["version", FENCE_VERSION]]);
+}
+
 function qgcplan(mission, autopilot, airspeed_m_s, fence = null) {
 let document;
 document = new Map([["fileType", "Plan"], ["version", 1], ["groundStation", "QGroundControl"], ["geoFence", ((fence == null) ? NO_FENCE : fence)], ["rallyPoints", new Map([["points", []], ["version", 2]])], ["mission", new Map([["version", 2], ["firmwareType", int(autopilot)], ["vehicleType", FIXED_WING], ["cruiseSpeed", airspeed_m_s], ["hoverSpeed", airspeed_m_s], ["globalPlanAltitudeMode", _common_mode(mission)], ["plannedHomePosition", list(mission.home)], ["items", list(iter(enumerate(mission.items, { start: 1 }))).map((one) => iter(one)).map(([number, item]) => _written(number, item))]])]]);
@@ -544,7 +554,7 @@ if ((altitude_m == null)) {
 throw errors.InvalidArgument("altitude_m", `is missing: a ${str(ending)} file needs ${str(datum.unit)}`);
 }
 plan = mission(arguments_.maneuver, frame, altitude_m, arguments_.spacing_m, arguments_.chord_error_m, datum, arguments_.along_path, arguments_.autopilot);
-return ((arguments_.site == null) ? plan : replace(plan, { home: arguments_.site.home }));
+return ((arguments_.site == null) ? plan : replace(plan, { home: _kept_home(arguments_.site, plan.home) }));
 }
 
 const Autopilot = enumeration({ ARDUPILOT: 3, PX4: 12 });
@@ -692,16 +702,56 @@ curvature = np.concatenate(list(iter(pieces)).map((one) => iter(one)).map(([segm
 return Samples(time_s, east, north, heading, curvature, ...iter(_over_ground(heading, curvature, aircraft, wind)));
 }
 
+const PlacedCircle = struct(class extends Tuple {
+constructor(name, latitude_deg, longitude_deg, radius_m, inclusion = false) {
+super();
+this.name = name;
+this.latitude_deg = latitude_deg;
+this.longitude_deg = longitude_deg;
+this.radius_m = radius_m;
+this.inclusion = inclusion;
+
+}
+local(frame) {
+let east, north;
+const self = this;
+[[east, north]] = iter(_local(self.name, frame, [[self.latitude_deg, self.longitude_deg]]));
+return CircleZone(self.name, east, north, self.radius_m, self.inclusion);
+}
+}, ["name", "latitude_deg", "longitude_deg", "radius_m", "inclusion"], 'PlacedCircle');
+
+const PlacedPolygon = struct(class extends Tuple {
+constructor(name, corners, inclusion = false) {
+super();
+this.name = name;
+this.corners = corners;
+this.inclusion = inclusion;
+
+}
+local(frame) {
+const self = this;
+return PolygonZone(self.name, tuple(_local(self.name, frame, self.corners)), self.inclusion);
+}
+}, ["name", "corners", "inclusion"], 'PlacedPolygon');
+
+function _clockwise(corners) {
+let pairs, twice_area;
+pairs = zip(corners, [...iter(sliced(corners, 1, null, null)), item(corners, 0)]);
+twice_area = sum(list(iter(pairs)).map((one) => iter(one)).map(([[lat, lon], [after_lat, after_lon]]) => mul(math.remainder(sub(lon, after_lon), 360.0), add(lat, after_lat))));
+return (gt(twice_area, 0.0) ? [item(corners, 0), ...iter(reversed(sliced(corners, 1, null, null)))] : corners);
+}
+
 function _common_mode(mission) {
 let frames;
 frames = set_of(list(iter(mission.items)).filter((item) => ne(item.frame, Frame.NOWHERE)).map((item) => item.frame));
 return (eq(len(frames), 1) ? item(ALTITUDE_MODES, pop_(frames)) : 0);
 }
 
-function _written(number, item) {
-let place;
-place = [item.latitude_deg, item.longitude_deg, item.altitude_m];
-return new Map([["AMSLAltAboveTerrain", null], ["Altitude", item.altitude_m], ["AltitudeMode", get_(ALTITUDE_MODES, item.frame, 0)], ["autoContinue", item.autocontinue], ["command", int(item.command)], ["doJumpId", number], ["frame", int(item.frame)], ["params", [...iter(list(iter(item.params)).map((value) => (truth(math.isnan(value)) ? null : value))), ...iter(place)]], ["type", "SimpleItem"]]);
+function _written(number, one) {
+let numbers, params;
+numbers = [...iter(one.params), one.latitude_deg, one.longitude_deg, one.altitude_m];
+params = list(iter(numbers)).map((value) => (truth(math.isnan(value)) ? null : value));
+return new Map([["AMSLAltAboveTerrain", null], ["Altitude", item(params, -1)], ["AltitudeMode", get_(ALTITUDE_MODES, one.frame, 0)], ["autoContinue", one.autocontinue], ["command", int(one.command)], ["doJumpId", number], ["frame", int(one.frame)], ["params", params], ["type", "SimpleItem"]]);
 }
 
 function mission(maneuver, frame, altitude_m, spacing_m = null, chord_error_m = 1.0, datum = MEAN_SEA_LEVEL, along_path = false, autopilot = Autopilot.ARDUPILOT) {
@@ -725,6 +775,15 @@ params = with_circle(MavCommand.NAV_LOITER_UNLIM, NO_PARAMS, orbit.radius_m, man
 items = list(iter(zip(waypoints, places))).map((one) => iter(one)).map(([w, place]) => MissionItem(MavCommand.NAV_WAYPOINT, datum.frame, [0.0, w.acceptance_m, 0.0, 0.0], ...iter(place), altitude_m));
 loiter = MissionItem(MavCommand.NAV_LOITER_UNLIM, datum.frame, params, ...iter(centre_place), altitude_m);
 return Mission([...iter(items), loiter], [...iter(home_place), home_m]);
+}
+
+function _kept_home(site, planned) {
+let _, latitude_deg, longitude_deg;
+[latitude_deg, longitude_deg, _] = iter(site.home);
+if (truth(math.isnan(add(latitude_deg, longitude_deg)))) {
+return planned;
+}
+return [latitude_deg, longitude_deg, ((site.home_altitude_m == null) ? item(planned, 2) : site.home_altitude_m)];
 }
 
 const MissionItem = struct(class extends Tuple {
@@ -967,6 +1026,19 @@ let radius_m, u;
 
 [u, radius_m] = iter([item(CONTROLS, segment.letter), radius_of(segment, aircraft)]);
 return tuple(np.broadcast_arrays(...iter(_flown(segment.start, u, length_m, radius_m, aircraft, wind, arrays.fly_arrays()))));
+}
+
+function _local(name, frame, places) {
+let corner, east_m, i, latitudes, longitudes, north_m;
+arrays.unchecked("frame", frame, LocalFrame);
+[latitudes, longitudes] = iter(zip(...iter(places)));
+[east_m, north_m] = iter(frame.to_local(latitudes, longitudes));
+if (truth(any_(ne(east_m, east_m)))) {
+i = int(ne(east_m, east_m).argmax());
+corner = (gt(len(places), 1) ? `corner ${str(add(i, 1))} of ` : "");
+throw errors.OutOfRange(`the fence cannot be checked: ${str(corner)}the zone ${repr(name)}, at ${str(degrees_of(...iter(item(places, i))))}, is more than ${format(div(REACH_M, 1000.0), `g`)} km from ${str(degrees_of(frame.latitude_deg, frame.longitude_deg))}`);
+}
+return list(zip(tolist_(east_m), tolist_(north_m)));
 }
 
 const AltitudeDatum = struct(class extends Values {
@@ -1317,6 +1389,12 @@ let _, east, heading, north, t, time_s, wind_east, wind_north;
 [wind_east, wind_north] = iter(wind.velocity_m_s);
 heading = heading_after(start.heading_deg, mul(u, t));
 return [position_after(add(start.east_m, mul(r, east)), wind_east, time_s), position_after(add(start.north_m, mul(r, north)), wind_north, time_s), heading];
+}
+
+function degrees_of(latitude_deg, longitude_deg) {
+let east, north;
+[north, east] = iter([(ge(latitude_deg, 0.0) ? "N" : "S"), (ge(longitude_deg, 0.0) ? "E" : "W")]);
+return `${format(abs(latitude_deg), `.6f`)} ${str(north)} ${format(abs(longitude_deg), `.6f`)} ${str(east)}`;
 }
 
 const Wind = struct(class extends Values {
@@ -1682,7 +1760,7 @@ return div(mul(airspeed_m_s, airspeed_m_s), mul(STANDARD_GRAVITY_M_S2, math.tan(
 }
 
 const SaveArguments = struct(class extends Tuple {
-constructor(maneuver, frame, altitude_m, datum, spacing_m, chord_error_m, autopilot, along_path = false, site = null, name = "") {
+constructor(maneuver, frame, altitude_m, datum, spacing_m, chord_error_m, autopilot, along_path = false, site = null, name = "", fence = null) {
 super();
 this.maneuver = maneuver;
 this.frame = frame;
@@ -1694,9 +1772,10 @@ this.autopilot = autopilot;
 this.along_path = along_path;
 this.site = site;
 this.name = name;
+this.fence = fence;
 
 }
-}, ["maneuver", "frame", "altitude_m", "datum", "spacing_m", "chord_error_m", "autopilot", "along_path", "site", "name"], 'SaveArguments');
+}, ["maneuver", "frame", "altitude_m", "datum", "spacing_m", "chord_error_m", "autopilot", "along_path", "site", "name", "fence"], 'SaveArguments');
 
 const JsonField = struct(class extends Tuple {
 constructor(name, path) {
@@ -5658,12 +5737,6 @@ lower = np.where(bit_and(gt(side_a, 0.0), gt(near, chords.off)), near, neg(deepe
 return [lower, mul(side_a, found.from_a.min({ axis: 1 })), mul(side_b, found.from_b.min({ axis: 1 }))];
 }
 
-function degrees_of(latitude_deg, longitude_deg) {
-let east, north;
-[north, east] = iter([(ge(latitude_deg, 0.0) ? "N" : "S"), (ge(longitude_deg, 0.0) ? "E" : "W")]);
-return `${format(abs(latitude_deg), `.6f`)} ${str(north)} ${format(abs(longitude_deg), `.6f`)} ${str(east)}`;
-}
-
 const Segment = struct(class extends Values {
 constructor(letter, start_s, duration_s, length_m, curvature_per_m, start, end) {
 super();
@@ -7296,6 +7369,8 @@ const NAMESPACE = "http://www.topografix.com/GPX/1/1";
 const DEGREES = ".9f";
 const VIEW_DISTANCE = 3.0;
 const MAX_VERTICES = 1000000;
+const AREA_VERSION = 1;
+const FENCE_VERSION = 2;
 const NO_FENCE = new Map([["circles", []], ["polygons", []], ["version", 2]]);
 const FIXED_WING = 1;
 const MARK = "QGC WPL";
