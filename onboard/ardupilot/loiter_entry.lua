@@ -2,7 +2,7 @@
 --
 -- Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
 --
--- SHA-256 of the source: 6cc306cbe64e266623722d058a5670393a3f244a721c3c0c1a28e8dd1e9df499
+-- SHA-256 of the source: ce414e4a5777dfa363e3a5261bc1acd074a28061ae9149d0657a9ddb838b880c
 --
 -- When a switch asks for it, this script flies a plane onto the holding circle around its present target in least
 -- time, and then leaves the circle to ArduPlane: loiter_entry.md. It works by GUIDED_CHANGE_HEADING in GUIDED: the target
@@ -3027,6 +3027,18 @@ function law.arc_time(rotation, radius, arc_tolerance)
     return law.angle({law.snap_full_turn(rotation, radius * radius, arc_tolerance)})
 end
 
+-- The first arc of LSL or RSR, whose arcs add up to `arcs`; one of them is zero where it falls short by rounding.
+--
+-- The straight piece moves by its own length alone as it turns: the shorter it is, the less is known of its
+-- direction.
+function law.first_of_same_turns(first, arcs, straight, arc_tolerance)
+    local beyond, short_ = first - arcs, 6.283185307179586--[[TWO_PI]] - first
+    if beyond > arc_tolerance and straight * min(beyond, short_) <= 3.0 * arc_tolerance then
+        return beyond < short_ and arcs or 0.0
+    end
+    return first
+end
+
 -- The first LSL (u = +1) or RSR whose time is at most `until`.
 --
 -- t1 + t3 is the rotation from start to pose, or a turn more, and t2 an interception.
@@ -3044,8 +3056,10 @@ function law.lsl_rsr(u, dx, dy, ends, until_)
         end
         local ex, ey = ax - wx * straight, ay - wy * straight
         local first = law.arc_time({law.arc_rotation(u, c0, s0, ex, ey)}, 1.0 + straight, arc_tolerance)
+        first = law.first_of_same_turns(first, arcs, straight, arc_tolerance)
         local last = max(arcs - first, 0.0)
-        if first <= arcs + arc_tolerance and last < 6.283185307179586--[[TWO_PI]] then
+        if first <= arcs + arc_tolerance and straight * (last - 6.283185307179586--[[TWO_PI]]) <= 3.0 *
+                arc_tolerance then
             local distance = law.length(ex, ey)
             -- Where the two circles coincide, any direction of p is possible.
             local chosen_1 = distance > 0.0

@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 650b49e7df614004c8c1d8b78a75fa1fc034e7961b202b33766ad42216fc6f26
+ * SHA-256 of the source: 8913b85d5bd4b1f0a872cfdcc4f80629a3826dc956d447e225b7a48a77570f10
  */
 #include "loiter.h"
 
@@ -1983,6 +1983,19 @@ static inline real arc_time(real_2 rotation, real radius, real arc_tolerance) {
     return angle(snap_full_turn(rotation, radius * radius, arc_tolerance));
 }
 
+/* The first arc of LSL or RSR, whose arcs add up to `arcs`; one of them is zero where it falls short by rounding.
+ *
+ * The straight piece moves by its own length alone as it turns: the shorter it is, the less is known of its
+ * direction.
+ */
+static inline real first_of_same_turns(real first, real arcs, real straight, real arc_tolerance) {
+    const real beyond = first - arcs, short_ = TWO_PI - first;
+    if (beyond > arc_tolerance && straight * min_real(beyond, short_) <= REAL(3.0) * arc_tolerance) {
+        return beyond < short_ ? arcs : REAL(0.0);
+    }
+    return first;
+}
+
 /* The first LSL (u = +1) or RSR whose time is at most `until`.
  *
  * t1 + t3 is the rotation from start to pose, or a turn more, and t2 an interception.
@@ -2000,9 +2013,10 @@ static inline Path lsl_rsr(integer u, real dx, real dy, const Ends *ends, real u
             break;
         }
         const real ex = ax - wx * straight, ey = ay - wy * straight;
-        const real first = arc_time(arc_rotation(u, c0, s0, ex, ey), REAL(1.0) + straight, arc_tolerance);
+        real first = arc_time(arc_rotation(u, c0, s0, ex, ey), REAL(1.0) + straight, arc_tolerance);
+        first = first_of_same_turns(first, arcs, straight, arc_tolerance);
         const real last = max_real(arcs - first, REAL(0.0));
-        if (first <= arcs + arc_tolerance && last < TWO_PI) {
+        if (first <= arcs + arc_tolerance && straight * (last - TWO_PI) <= REAL(3.0) * arc_tolerance) {
             const real distance = length(ex, ey);
             /* Where the two circles coincide, any direction of p is possible. */
             const bool chosen_1 = distance > REAL(0.0);

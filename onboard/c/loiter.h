@@ -6,7 +6,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 650b49e7df614004c8c1d8b78a75fa1fc034e7961b202b33766ad42216fc6f26
+ * SHA-256 of the source: 8913b85d5bd4b1f0a872cfdcc4f80629a3826dc956d447e225b7a48a77570f10
  */
 #ifndef LOITER_ONBOARD_H
 #define LOITER_ONBOARD_H

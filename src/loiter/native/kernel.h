@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 58a3617706f0be82ea072bcaa77e322ef098e7b36c85b3980cf2c12b6fa29307
+ * SHA-256 of the source: ff79ccc2e3da54bd7cef9124e590ac5ae358c14efcbaa01886c293ef7428b0b7
  */
 #ifndef LOITER_KERNEL_H
 #define LOITER_KERNEL_H
@@ -429,6 +429,15 @@ static const WindCandidate NO_CANDIDATE = {0.0, 0, {INFINITY, 0, 0.0, 0.0, 0.0, 
 
 /* Halvings, or better steps, that shrink a bracket to rounding. */
 #define ROOT_STEPS 120
+
+/* Where the last arc or a straight piece vanishes at a root of the excess, it is known to the cube root of this
+ * times rounding: the excess of a last arc a is V a^3 / (6 k), k <= 1, and of the two words that meet there one has
+ * V >= 1.
+ */
+#define EDGE 1000.0
+
+/* The distance between the outer circles of LRL or RLR is known up to so many arc tolerances. */
+#define THREE_ARCS 12.0
 
 /* The reduced state (2) of a vehicle at (x, y), relative to the circle's centre, with the unit heading (c, s). */
 static inline real_2 reduce(real x, real y, real c, real s) {
@@ -1700,6 +1709,19 @@ static inline real arc_time(real_2 rotation, real radius, real arc_tolerance) {
     return angle(snap_full_turn(rotation, radius * radius, arc_tolerance));
 }
 
+/* The first arc of LSL or RSR, whose arcs add up to `arcs`; one of them is zero where it falls short by rounding.
+ *
+ * The straight piece moves by its own length alone as it turns: the shorter it is, the less is known of its
+ * direction.
+ */
+static inline real first_of_same_turns(real first, real arcs, real straight, real arc_tolerance) {
+    const real beyond = first - arcs, short_ = TWO_PI - first;
+    if (beyond > arc_tolerance && straight * min_real(beyond, short_) <= 3.0 * arc_tolerance) {
+        return beyond < short_ ? arcs : 0.0;
+    }
+    return first;
+}
+
 /* The first LSL (u = +1) or RSR whose time is at most `until`.
  *
  * t1 + t3 is the rotation from start to pose, or a turn more, and t2 an interception.
@@ -1717,9 +1739,10 @@ static inline Path lsl_rsr(integer u, real dx, real dy, Ends ends, real until_) 
             break;
         }
         const real ex = ax - wx * straight, ey = ay - wy * straight;
-        const real first = arc_time(arc_rotation(u, c0, s0, ex, ey), 1.0 + straight, arc_tolerance);
+        real first = arc_time(arc_rotation(u, c0, s0, ex, ey), 1.0 + straight, arc_tolerance);
+        first = first_of_same_turns(first, arcs, straight, arc_tolerance);
         const real last = max_real(arcs - first, 0.0);
-        if (first <= arcs + arc_tolerance && last < TWO_PI) {
+        if (first <= arcs + arc_tolerance && straight * (last - TWO_PI) <= 3.0 * arc_tolerance) {
             const real distance = length(ex, ey);
             /* Where the two circles coincide, any direction of p is possible. */
             const bool chosen_1 = distance > 0.0;
@@ -3440,20 +3463,8 @@ static inline Excess excess_at(integer u, integer last, SlotPose pose, Slot slot
     return (Excess){less_whole_turns(straight + arcs - pose.time), -speed * (1.0 - ahead), apart, apart_slope};
 }
 
-/* The path with whole turns added to its first arc, so that it takes the time of the slot; `NO_PATH` if longer. */
-static inline Path with_turns(Path path, SlotPose pose) {
-    const real turns = floor((pose.time - path.time) / TWO_PI + 0.5);
-    if (turns < 0.0) {
-        return NO_PATH;
-    }
-    Path changed_1 = path;
-    changed_1.time = path.time + TWO_PI * turns;
-    changed_1.t1 = path.t1 + TWO_PI * turns;
-    return changed_1;
-}
-
-/* The path of a word with a straight piece to the slot, with as many whole turns first as the time leaves. */
-static inline Path path_with_straight(integer u, integer last, SlotPose pose, WindScene scene) {
+/* The shortest path of a word with a straight piece to the slot. */
+static inline Path pieces_with_straight(integer u, integer last, SlotPose pose, WindScene scene) {
     const real c0 = scene.c, s0 = scene.s, c = pose.c, s = pose.s;
     const real dx = pose.x - (real)last * s + (real)u * s0, dy = pose.y + (real)last * c - (real)u * c0;
     real straight, q1, q2;
@@ -3468,10 +3479,33 @@ static inline Path path_with_straight(integer u, integer last, SlotPose pose, Wi
         q1 = tangent_2.a1;
         q2 = tangent_2.a2;
     }
-    const real first = arc_time(arc_rotation(u, c0, s0, q1, q2), 1.0 + straight, scene.arc_tolerance);
-    const real third = arc_time(arc_rotation(last, q1, q2, c, s), 1.0, scene.arc_tolerance);
-    return with_turns((Path){first + straight + third, encode(u, 0, last), first, straight, third, 1.0, q1, q2},
-            pose);
+    real first = arc_time(arc_rotation(u, c0, s0, q1, q2), 1.0 + straight, scene.arc_tolerance);
+    real third = arc_time(arc_rotation(last, q1, q2, c, s), 1.0, scene.arc_tolerance);
+    if (u == last) {
+        const real arcs = arc_time(arc_rotation(u, c0, s0, c, s), 1.0, scene.arc_tolerance);
+        if (first + third > arcs + 3.141592653589793) {
+            first = first_of_same_turns(first, arcs, straight, scene.arc_tolerance);
+            third = first <= arcs ? arcs - first : third;
+        }
+    }
+    return (Path){first + straight + third, encode(u, 0, last), first, straight, third, 1.0, q1, q2};
+}
+
+/* The path with whole turns added to its first arc, so that it takes the time of the slot; `NO_PATH` if longer. */
+static inline Path with_turns(Path path, SlotPose pose) {
+    const real turns = floor((pose.time - path.time) / TWO_PI + 0.5);
+    if (turns < 0.0) {
+        return NO_PATH;
+    }
+    Path changed_1 = path;
+    changed_1.time = path.time + TWO_PI * turns;
+    changed_1.t1 = path.t1 + TWO_PI * turns;
+    return changed_1;
+}
+
+/* The path of a word with a straight piece to the slot, with as many whole turns first as the time leaves. */
+static inline Path path_with_straight(integer u, integer last, SlotPose pose, WindScene scene) {
+    return with_turns(pieces_with_straight(u, last, pose, scene), pose);
 }
 
 /* Bounds on the second derivative of |d|^2 where |d| is at most `distance`. */
@@ -3516,8 +3550,9 @@ static inline real step_of_excess(integer u, integer last, Excess excess, Bounds
     return min_real(step, step_without_zero(-excess.apart, -excess.apart_slope, high));
 }
 
-/* The slot where the excess is zero, between a pose where it is not negative and one where it is. */
-static inline SlotPose root_of_excess(integer u, integer last, SlotPose a, SlotPose b, Slot slot, WindScene scene) {
+/* The slot where the excess has a value, between a pose where it is not less and one where it is. */
+static inline SlotPose root_of_excess(integer u, integer last, SlotPose a, SlotPose b, Slot slot, WindScene scene,
+        real level) {
     real least = a.width, most = b.width;
     real width = 0.5 * (least + most);
     SlotPose best = a;
@@ -3525,25 +3560,79 @@ static inline SlotPose root_of_excess(integer u, integer last, SlotPose a, SlotP
     for (integer i = 0; i < ROOT_STEPS; i++) {
         const SlotPose pose = slot_pose(width, slot, scene);
         const Excess excess = excess_at(u, last, pose, slot, scene);
-        if (fabs(excess.value) < best_value) {
+        const real value = excess.value - level;
+        if (fabs(value) < best_value) {
             best = pose;
-            best_value = fabs(excess.value);
+            best_value = fabs(value);
         }
-        if (excess.value >= 0.0) {
+        if (value >= 0.0) {
             least = width;
         } else {
             most = width;
         }
-        const real newton = excess.slope < 0.0 ? width - excess.value / excess.slope : least;
+        const real newton = excess.slope < 0.0 ? width - value / excess.slope : least;
         /* Every third step bisects, since Newton's method is slow at a triple root. */
         const bool is_newton = integer_modulo(i, 3) != 2 && (least < newton && newton < most);
         const real following = is_newton ? newton : 0.5 * (least + most);
-        if (excess.value == 0.0 || (following == width || following == least || following == most)) {
+        if (value == 0.0 || (following == width || following == least || following == most)) {
             break;
         }
         width = following;
     }
     return best;
+}
+
+/* The arrival where a word ceases to exist, between a pose to which it has a path and one to which it has none.
+ *
+ * An arc vanishes there, so that two words meet.
+ */
+static inline WindCandidate arrival_at_edge(integer u, integer last, SlotPose inside, SlotPose outside, Slot slot,
+        WindScene scene) {
+    real width = inside.width;
+    Path path = path_with_straight(u, last, inside, scene);
+    real beyond = outside.width;
+    for (integer pass_1 = 0; pass_1 < ROOT_STEPS; pass_1++) {
+        const real middle = 0.5 * (width + beyond);
+        if (middle == width || middle == beyond) {
+            break;
+        }
+        const Path nearer = path_with_straight(u, last, slot_pose(middle, slot, scene), scene);
+        if (nearer.time < INFINITY) {
+            width = middle;
+            path = nearer;
+        } else {
+            beyond = middle;
+        }
+    }
+    return (WindCandidate){slot.phase + width, slot.side, path};
+}
+
+/* The arrival at the root of the excess between two poses; `NO_PATH` where an arc falls short of zero there.
+ *
+ * Where words meet in a path without this arc, rounding must not make it fall short in all of them.
+ */
+static inline WindCandidate arrival_at_root(integer u, integer last, SlotPose a, SlotPose b, Slot slot, WindScene
+        scene, real length_tolerance) {
+    const SlotPose root = root_of_excess(u, last, a, b, slot, scene, 0.0);
+    const Path pieces = pieces_with_straight(u, last, root, scene);
+    const Path path = with_turns(pieces, root);
+    if (path.time < INFINITY) {
+        return (WindCandidate){slot.phase + root.width, slot.side, path};
+    }
+    const real short_ = min_real(TWO_PI - max_real(pieces.t1, pieces.t3), pieces.t2);
+    if (short_ * short_ * short_ > EDGE * length_tolerance) {
+        return (WindCandidate){0.0, slot.side, NO_PATH};
+    }
+    /* All poses between these two are roots up to rounding. */
+    const real each_level_1[2] = {length_tolerance, -length_tolerance};
+    for (int i_1 = 0; i_1 < 2; i_1++) {
+        const real level = each_level_1[i_1];
+        const SlotPose end_ = root_of_excess(u, last, a, b, slot, scene, level);
+        if (path_with_straight(u, last, end_, scene).time < INFINITY) {
+            return arrival_at_edge(u, last, end_, root, slot, scene);
+        }
+    }
+    return (WindCandidate){0.0, slot.side, NO_PATH};
 }
 
 /* The first arrival by the word with these outer controls and a straight piece; `NO_PATH` for none by `until`. */
@@ -3557,9 +3646,8 @@ static inline WindCandidate first_with_straight(integer u, integer last, SlotPos
         /* The last arc is on the circle itself: the vehicle would have been in the slot before. */
         return none;
     }
-    Path path;
     if (fabs(excess.value) <= length_tolerance && excess.apart >= -length_tolerance) {
-        path = path_with_straight(u, last, pose, scene);
+        const Path path = path_with_straight(u, last, pose, scene);
         if (path.time < INFINITY) {
             return (WindCandidate){slot.phase + pose.width, slot.side, path};
         }
@@ -3575,10 +3663,9 @@ static inline WindCandidate first_with_straight(integer u, integer last, SlotPos
         const bool exists = excess.apart >= -length_tolerance && excess_ahead.apart >= -length_tolerance;
         if (exists && (excess.value >= 0.0 && 0.0 > excess_ahead.value) && excess.value - excess_ahead.value <=
                 3.141592653589793 + 1.0) {
-            const SlotPose root = root_of_excess(u, last, pose, ahead, slot, scene);
-            path = path_with_straight(u, last, root, scene);
-            if (path.time < INFINITY) {
-                return (WindCandidate){slot.phase + root.width, slot.side, path};
+            const WindCandidate found = arrival_at_root(u, last, pose, ahead, slot, scene, length_tolerance);
+            if (found.path.time < INFINITY) {
+                return found;
             }
         }
         pose = ahead;
@@ -3599,7 +3686,13 @@ static inline Middle middle_at(integer u, real half, SlotPose pose, Slot slot, W
 
 /* The path of LRL or RLR to the slot, with as many whole turns first as the time leaves. */
 static inline Path path_of_three_arcs(integer u, Middle middle, SlotPose pose, WindScene scene) {
-    const Ends ends = (Ends){scene.c, scene.s, pose.c, pose.s, scene.wx, scene.wy, scene.arc_tolerance};
+    Ends ends = (Ends){scene.c, scene.s, pose.c, pose.s, scene.wx, scene.wy, scene.arc_tolerance};
+    const Path path = with_turns(three_arcs(u, middle.arc, middle.dx, middle.dy, ends), pose);
+    if (path.time < INFINITY) {
+        return path;
+    }
+    /* An arc may fall short of zero by as much as counts as a root. */
+    ends.arc_tolerance = THREE_ARCS * scene.arc_tolerance;
     return with_turns(three_arcs(u, middle.arc, middle.dx, middle.dy, ends), pose);
 }
 
@@ -3612,7 +3705,7 @@ static inline WindCandidate first_of_three_arcs(integer u, integer halves, SlotP
     }
     const SlotPose origin = slot_pose(0.0, slot, scene);
     SlotPose pose = begin;
-    const real length_tolerance = 12.0 * scene.arc_tolerance;
+    const real length_tolerance = THREE_ARCS * scene.arc_tolerance;
     const real half = 3.141592653589793 * (real)halves - 0.5 * angle(arc_rotation(u, scene.c, scene.s, origin.c,
             origin.s));
     for (integer pass_1 = 0; pass_1 < MOST_STEPS; pass_1++) {

@@ -96,6 +96,17 @@ def arc_time(rotation: Rotation, radius: float, arc_tolerance: float) -> float:
     return angle(snap_full_turn(rotation, radius * radius, arc_tolerance))
 
 
+def first_of_same_turns(first: float, arcs: float, straight: float, arc_tolerance: float) -> float:
+    """The first arc of LSL or RSR, whose arcs add up to `arcs`; one of them is zero where it falls short by rounding.
+
+    The straight piece moves by its own length alone as it turns: the shorter it is, the less is known of its direction.
+    """
+    beyond, short = first - arcs, TWO_PI - first
+    if beyond > arc_tolerance and straight * min(beyond, short) <= 3.0 * arc_tolerance:
+        return arcs if beyond < short else 0.0
+    return first
+
+
 def lsl_rsr(u: int, dx: float, dy: float, ends: Ends, until: float) -> Path:
     """The first LSL (u = +1) or RSR whose time is at most `until`.
 
@@ -110,8 +121,9 @@ def lsl_rsr(u: int, dx: float, dy: float, ends: Ends, until: float) -> Path:
             break
         ex, ey = ax - wx * straight, ay - wy * straight
         first = arc_time(arc_rotation(u, c0, s0, ex, ey), 1.0 + straight, arc_tolerance)
+        first = first_of_same_turns(first, arcs, straight, arc_tolerance)
         last = max(arcs - first, 0.0)
-        if first <= arcs + arc_tolerance and last < TWO_PI:
+        if first <= arcs + arc_tolerance and straight * (last - TWO_PI) <= 3.0 * arc_tolerance:
             distance = length(ex, ey)
             # Where the two circles coincide, any direction of p is possible.
             p1, p2 = (ex / distance, ey / distance) if distance > 0.0 else (1.0, 0.0)

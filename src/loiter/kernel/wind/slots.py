@@ -22,7 +22,15 @@ from loiter.kernel.statuses import Status
 from loiter.kernel.wind.fits import end_miss
 from loiter.kernel.wind.held import time_held
 from loiter.kernel.wind.hold import hold_pose
-from loiter.kernel.wind.moving_target import NO_PATH, Ends, Path, arc_time, tangent, three_arcs
+from loiter.kernel.wind.moving_target import (
+    NO_PATH,
+    Ends,
+    Path,
+    arc_time,
+    first_of_same_turns,
+    tangent,
+    three_arcs,
+)
 from loiter.kernel.wind.paths import WindCandidate, WindScene
 from loiter.kernel.wind.wind_search import WindEntry, WindProblem, entry_at, no_entry, scene_of, status_of
 from loiter.kernel.words import code, encode
@@ -36,8 +44,15 @@ GROWTH = 0.5
 # Next to a double root a step is at least this long, radians: there the function is within rounding of zero.
 DOUBLE_ROOT = 1e-8
 
+# The distance between the outer circles of LRL or RLR is known up to so many arc tolerances.
+THREE_ARCS = 12.0
+
 # Halvings, or better steps, that shrink a bracket to rounding.
 ROOT_STEPS = 120
+
+# Where the last arc or a straight piece vanishes at a root of the excess, it is known to the cube root of this times
+# rounding: the excess of a last arc a is V a^3 / (6 k), k <= 1, and of the two words that meet there one has V >= 1.
+EDGE = 1000.0
 
 # Steps towards the slot while it is out of reach, and the time that remains when they end.
 APPROACHES, NEAR = 200, 0.01
@@ -274,32 +289,75 @@ def first_with_straight(
         excess_ahead = excess_at(u, last, ahead, slot, scene)
         exists = excess.apart >= -length_tolerance and excess_ahead.apart >= -length_tolerance
         if exists and excess.value >= 0.0 > excess_ahead.value and excess.value - excess_ahead.value <= pi + 1.0:
-            root = root_of_excess(u, last, pose, ahead, slot, scene)
-            path = path_with_straight(u, last, root, scene)
-            if path.time < inf:
-                return WindCandidate(slot.phase + root.width, slot.side, path)
+            found = arrival_at_root(u, last, pose, ahead, slot, scene, length_tolerance)
+            if found.path.time < inf:
+                return found
         pose, excess = ahead, excess_ahead
     return none
 
 
-def root_of_excess(u: int, last: int, a: SlotPose, b: SlotPose, slot: Slot, scene: WindScene) -> SlotPose:
-    """The slot where the excess is zero, between a pose where it is not negative and one where it is."""
+def arrival_at_root(
+    u: int, last: int, a: SlotPose, b: SlotPose, slot: Slot, scene: WindScene, length_tolerance: float
+) -> WindCandidate:
+    """The arrival at the root of the excess between two poses; `NO_PATH` where an arc falls short of zero there.
+
+    Where words meet in a path without this arc, rounding must not make it fall short in all of them.
+    """
+    root = root_of_excess(u, last, a, b, slot, scene, 0.0)
+    pieces = pieces_with_straight(u, last, root, scene)
+    path = with_turns(pieces, root)
+    if path.time < inf:
+        return WindCandidate(slot.phase + root.width, slot.side, path)
+    short = min(TWO_PI - max(pieces.t1, pieces.t3), pieces.t2)
+    if short * short * short > EDGE * length_tolerance:
+        return WindCandidate(0.0, slot.side, NO_PATH)
+    # All poses between these two are roots up to rounding.
+    for level in (length_tolerance, -length_tolerance):
+        end = root_of_excess(u, last, a, b, slot, scene, level)
+        if path_with_straight(u, last, end, scene).time < inf:
+            return arrival_at_edge(u, last, end, root, slot, scene)
+    return WindCandidate(0.0, slot.side, NO_PATH)
+
+
+def arrival_at_edge(
+    u: int, last: int, inside: SlotPose, outside: SlotPose, slot: Slot, scene: WindScene
+) -> WindCandidate:
+    """The arrival where a word ceases to exist, between a pose to which it has a path and one to which it has none.
+
+    An arc vanishes there, so that two words meet.
+    """
+    width, path, beyond = inside.width, path_with_straight(u, last, inside, scene), outside.width
+    for _ in range(ROOT_STEPS):
+        middle = 0.5 * (width + beyond)
+        if middle in (width, beyond):
+            break
+        nearer = path_with_straight(u, last, slot_pose(middle, slot, scene), scene)
+        if nearer.time < inf:
+            width, path = middle, nearer
+        else:
+            beyond = middle
+    return WindCandidate(slot.phase + width, slot.side, path)
+
+
+def root_of_excess(u: int, last: int, a: SlotPose, b: SlotPose, slot: Slot, scene: WindScene, level: float) -> SlotPose:
+    """The slot where the excess has a value, between a pose where it is not less and one where it is."""
     least, most = a.width, b.width
     width, best, best_value = 0.5 * (least + most), a, inf
     for i in range(ROOT_STEPS):
         pose = slot_pose(width, slot, scene)
         excess = excess_at(u, last, pose, slot, scene)
-        if abs(excess.value) < best_value:
-            best, best_value = pose, abs(excess.value)
-        if excess.value >= 0.0:
+        value = excess.value - level
+        if abs(value) < best_value:
+            best, best_value = pose, abs(value)
+        if value >= 0.0:
             least = width
         else:
             most = width
-        newton = width - excess.value / excess.slope if excess.slope < 0.0 else least
+        newton = width - value / excess.slope if excess.slope < 0.0 else least
         # Every third step bisects, since Newton's method is slow at a triple root.
         is_newton = i % 3 != 2 and least < newton < most
         following = newton if is_newton else 0.5 * (least + most)
-        if excess.value == 0.0 or following in (width, least, most):
+        if value == 0.0 or following in (width, least, most):
             break
         width = following
     return best
@@ -307,6 +365,11 @@ def root_of_excess(u: int, last: int, a: SlotPose, b: SlotPose, slot: Slot, scen
 
 def path_with_straight(u: int, last: int, pose: SlotPose, scene: WindScene) -> Path:
     """The path of a word with a straight piece to the slot, with as many whole turns first as the time leaves."""
+    return with_turns(pieces_with_straight(u, last, pose, scene), pose)
+
+
+def pieces_with_straight(u: int, last: int, pose: SlotPose, scene: WindScene) -> Path:
+    """The shortest path of a word with a straight piece to the slot."""
     c0, s0, c, s = scene.c, scene.s, pose.c, pose.s
     dx, dy = pose.x - last * s + u * s0, pose.y + last * c - u * c0
     if u == last:
@@ -316,7 +379,12 @@ def path_with_straight(u: int, last: int, pose: SlotPose, scene: WindScene) -> P
         straight, q1, q2 = tangent(u, dx, dy)
     first = arc_time(arc_rotation(u, c0, s0, q1, q2), 1.0 + straight, scene.arc_tolerance)
     third = arc_time(arc_rotation(last, q1, q2, c, s), 1.0, scene.arc_tolerance)
-    return with_turns(Path(first + straight + third, encode(u, 0, last), first, straight, third, 1.0, q1, q2), pose)
+    if u == last:
+        arcs = arc_time(arc_rotation(u, c0, s0, c, s), 1.0, scene.arc_tolerance)
+        if first + third > arcs + pi:
+            first = first_of_same_turns(first, arcs, straight, scene.arc_tolerance)
+            third = arcs - first if first <= arcs else third
+    return Path(first + straight + third, encode(u, 0, last), first, straight, third, 1.0, q1, q2)
 
 
 def with_turns(path: Path, pose: SlotPose) -> Path:
@@ -344,7 +412,7 @@ def first_of_three_arcs(
     none = WindCandidate(0.0, slot.side, NO_PATH)
     if bounds_at(u, begin, slot, scene).speed <= ROUNDING:
         return none
-    origin, pose, length_tolerance = slot_pose(0.0, slot, scene), begin, 12.0 * scene.arc_tolerance
+    origin, pose, length_tolerance = slot_pose(0.0, slot, scene), begin, THREE_ARCS * scene.arc_tolerance
     half = pi * halves - 0.5 * angle(arc_rotation(u, scene.c, scene.s, origin.c, origin.s))
     for _ in range(MOST_STEPS):
         if pose.time > until:
@@ -377,6 +445,11 @@ def first_of_three_arcs(
 def path_of_three_arcs(u: int, middle: Middle, pose: SlotPose, scene: WindScene) -> Path:
     """The path of LRL or RLR to the slot, with as many whole turns first as the time leaves."""
     ends = Ends(scene.c, scene.s, pose.c, pose.s, scene.wx, scene.wy, scene.arc_tolerance)
+    path = with_turns(three_arcs(u, middle.arc, middle.dx, middle.dy, ends), pose)
+    if path.time < inf:
+        return path
+    # An arc may fall short of zero by as much as counts as a root.
+    ends = ends._replace(arc_tolerance=THREE_ARCS * scene.arc_tolerance)
     return with_turns(three_arcs(u, middle.arc, middle.dx, middle.dy, ends), pose)
 
 

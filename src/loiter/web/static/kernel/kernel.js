@@ -4,7 +4,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 05c319f8081020004cd43831b44a33583b79f6181225ee4223c70e1645124f38
+ * SHA-256 of the source: 73d07c4306235c3b34de19b2e5e6e7b5ba379d33a8815a54fb3e6fb7ac8daf5f
  */
 
 // What Python has and JavaScript has not: the first of two that tie, and quotients rounded down. Integers are doubles
@@ -519,6 +519,15 @@ export const DOUBLE_ROOT = 1e-08;
 
 /* Halvings, or better steps, that shrink a bracket to rounding. */
 export const ROOT_STEPS = 120;
+
+/* Where the last arc or a straight piece vanishes at a root of the excess, it is known to the cube root of this
+ * times rounding: the excess of a last arc a is V a^3 / (6 k), k <= 1, and of the two words that meet there one has
+ * V >= 1.
+ */
+export const EDGE = 1000.0;
+
+/* The distance between the outer circles of LRL or RLR is known up to so many arc tolerances. */
+export const THREE_ARCS = 12.0;
 
 /**
  * The reduced state (2) of a vehicle at (x, y), relative to the circle's centre, with the unit heading (c, s).
@@ -2459,6 +2468,22 @@ export function arc_time(rotation, radius, arc_tolerance) {
 }
 
 /**
+ * The first arc of LSL or RSR, whose arcs add up to `arcs`; one of them is zero where it falls short by rounding.
+ *
+ * The straight piece moves by its own length alone as it turns: the shorter it is, the less is known of its
+ * direction.
+ *
+ * @type {(first: number, arcs: number, straight: number, arc_tolerance: number) => number}
+ */
+export function first_of_same_turns(first, arcs, straight, arc_tolerance) {
+    const beyond = first - arcs, short_ = TWO_PI - first;
+    if (beyond > arc_tolerance && straight * min_real(beyond, short_) <= 3.0 * arc_tolerance) {
+        return beyond < short_ ? arcs : 0.0;
+    }
+    return first;
+}
+
+/**
  * The first LSL (u = +1) or RSR whose time is at most `until`.
  *
  * t1 + t3 is the rotation from start to pose, or a turn more, and t2 an interception.
@@ -2476,9 +2501,10 @@ export function lsl_rsr(u, dx, dy, ends, until_) {
             break;
         }
         const ex = ax - wx * straight, ey = ay - wy * straight;
-        const first = arc_time(arc_rotation(u, c0, s0, ex, ey), 1.0 + straight, arc_tolerance);
+        let first = arc_time(arc_rotation(u, c0, s0, ex, ey), 1.0 + straight, arc_tolerance);
+        first = first_of_same_turns(first, arcs, straight, arc_tolerance);
         const last = max_real(arcs - first, 0.0);
-        if (first <= arcs + arc_tolerance && last < TWO_PI) {
+        if (first <= arcs + arc_tolerance && straight * (last - TWO_PI) <= 3.0 * arc_tolerance) {
             const distance = length(ex, ey);
             // Where the two circles coincide, any direction of p is possible.
             const chosen_1 = distance > 0.0;
@@ -4621,6 +4647,39 @@ export function excess_at(u, last, pose, slot, scene) {
 }
 
 /**
+ * The shortest path of a word with a straight piece to the slot.
+ *
+ * @type {(u: number, last: number, pose: SlotPose, scene: WindScene) => Path}
+ */
+export function pieces_with_straight(u, last, pose, scene) {
+    const c0 = scene.c, s0 = scene.s, c = pose.c, s = pose.s;
+    const dx = pose.x - last * s + u * s0, dy = pose.y + last * c - u * c0;
+    let straight, q1, q2;
+    if (u === last) {
+        straight = length(dx, dy);
+        const chosen_1 = straight > 0.0;
+        q1 = chosen_1 ? dx / straight : c0;
+        q2 = chosen_1 ? dy / straight : s0;
+    } else {
+        const tangent_2 = tangent(u, dx, dy);
+        straight = tangent_2[0];
+        q1 = tangent_2[1];
+        q2 = tangent_2[2];
+    }
+    let first = arc_time(arc_rotation(u, c0, s0, q1, q2), 1.0 + straight, scene.arc_tolerance);
+    let third = arc_time(arc_rotation(last, q1, q2, c, s), 1.0, scene.arc_tolerance);
+    if (u === last) {
+        const arcs = arc_time(arc_rotation(u, c0, s0, c, s), 1.0, scene.arc_tolerance);
+        if (first + third > arcs + 3.141592653589793) {
+            first = first_of_same_turns(first, arcs, straight, scene.arc_tolerance);
+            third = first <= arcs ? arcs - first : third;
+        }
+    }
+    return { time: first + straight + third, word: encode(u, 0, last), t1: first, t2: straight, t3: third, lam: 1.0,
+            p1: q1, p2: q2 };
+}
+
+/**
  * The path with whole turns added to its first arc, so that it takes the time of the slot; `NO_PATH` if longer.
  *
  * @type {(path: Path, pose: SlotPose) => Path}
@@ -4639,24 +4698,7 @@ export function with_turns(path, pose) {
  * @type {(u: number, last: number, pose: SlotPose, scene: WindScene) => Path}
  */
 export function path_with_straight(u, last, pose, scene) {
-    const c0 = scene.c, s0 = scene.s, c = pose.c, s = pose.s;
-    const dx = pose.x - last * s + u * s0, dy = pose.y + last * c - u * c0;
-    let straight, q1, q2;
-    if (u === last) {
-        straight = length(dx, dy);
-        const chosen_1 = straight > 0.0;
-        q1 = chosen_1 ? dx / straight : c0;
-        q2 = chosen_1 ? dy / straight : s0;
-    } else {
-        const tangent_2 = tangent(u, dx, dy);
-        straight = tangent_2[0];
-        q1 = tangent_2[1];
-        q2 = tangent_2[2];
-    }
-    const first = arc_time(arc_rotation(u, c0, s0, q1, q2), 1.0 + straight, scene.arc_tolerance);
-    const third = arc_time(arc_rotation(last, q1, q2, c, s), 1.0, scene.arc_tolerance);
-    return with_turns({ time: first + straight + third, word: encode(u, 0, last), t1: first, t2: straight, t3:
-            third, lam: 1.0, p1: q1, p2: q2 }, pose);
+    return with_turns(pieces_with_straight(u, last, pose, scene), pose);
 }
 
 /**
@@ -4714,35 +4756,91 @@ export function step_of_excess(u, last, excess, limits, scene, length_tolerance)
 }
 
 /**
- * The slot where the excess is zero, between a pose where it is not negative and one where it is.
+ * The slot where the excess has a value, between a pose where it is not less and one where it is.
  *
- * @type {(u: number, last: number, a: SlotPose, b: SlotPose, slot: Slot, scene: WindScene) => SlotPose}
+ * @type {(u: number, last: number, a: SlotPose, b: SlotPose, slot: Slot, scene: WindScene, level: number) => SlotPose}
  */
-export function root_of_excess(u, last, a, b, slot, scene) {
+export function root_of_excess(u, last, a, b, slot, scene, level) {
     let least = a.width, most = b.width;
     let width = 0.5 * (least + most), best = a, best_value = Infinity;
     for (let i = 0; i < ROOT_STEPS; i++) {
         const pose = slot_pose(width, slot, scene);
         const excess = excess_at(u, last, pose, slot, scene);
-        if (Math.abs(excess.value) < best_value) {
+        const value = excess.value - level;
+        if (Math.abs(value) < best_value) {
             best = pose;
-            best_value = Math.abs(excess.value);
+            best_value = Math.abs(value);
         }
-        if (excess.value >= 0.0) {
+        if (value >= 0.0) {
             least = width;
         } else {
             most = width;
         }
-        const newton = excess.slope < 0.0 ? width - excess.value / excess.slope : least;
+        const newton = excess.slope < 0.0 ? width - value / excess.slope : least;
         // Every third step bisects, since Newton's method is slow at a triple root.
         /** @type {boolean} */ const is_newton = integer_modulo(i, 3) !== 2 && (least < newton && newton < most);
         const following = is_newton ? newton : 0.5 * (least + most);
-        if (excess.value === 0.0 || (following === width || following === least || following === most)) {
+        if (value === 0.0 || (following === width || following === least || following === most)) {
             break;
         }
         width = following;
     }
     return best;
+}
+
+/**
+ * The arrival where a word ceases to exist, between a pose to which it has a path and one to which it has none.
+ *
+ * An arc vanishes there, so that two words meet.
+ *
+ * @type {(u: number, last: number, inside: SlotPose, outside: SlotPose, slot: Slot, scene: WindScene) =>
+ *         WindCandidate}
+ */
+export function arrival_at_edge(u, last, inside, outside, slot, scene) {
+    let width = inside.width, path = path_with_straight(u, last, inside, scene), beyond = outside.width;
+    for (let pass_1 = 0; pass_1 < ROOT_STEPS; pass_1++) {
+        const middle = 0.5 * (width + beyond);
+        if (middle === width || middle === beyond) {
+            break;
+        }
+        const nearer = path_with_straight(u, last, slot_pose(middle, slot, scene), scene);
+        if (nearer.time < Infinity) {
+            width = middle;
+            path = nearer;
+        } else {
+            beyond = middle;
+        }
+    }
+    return { phase: slot.phase + width, side: slot.side, path };
+}
+
+/**
+ * The arrival at the root of the excess between two poses; `NO_PATH` where an arc falls short of zero there.
+ *
+ * Where words meet in a path without this arc, rounding must not make it fall short in all of them.
+ *
+ * @type {(u: number, last: number, a: SlotPose, b: SlotPose, slot: Slot, scene: WindScene, length_tolerance: number)
+ *         => WindCandidate}
+ */
+export function arrival_at_root(u, last, a, b, slot, scene, length_tolerance) {
+    const root = root_of_excess(u, last, a, b, slot, scene, 0.0);
+    const pieces = pieces_with_straight(u, last, root, scene);
+    const path = with_turns(pieces, root);
+    if (path.time < Infinity) {
+        return { phase: slot.phase + root.width, side: slot.side, path };
+    }
+    const short_ = min_real(TWO_PI - max_real(pieces.t1, pieces.t3), pieces.t2);
+    if (short_ * short_ * short_ > EDGE * length_tolerance) {
+        return { phase: 0.0, side: slot.side, path: NO_PATH };
+    }
+    // All poses between these two are roots up to rounding.
+    for (const level of [length_tolerance, -length_tolerance]) {
+        const end_ = root_of_excess(u, last, a, b, slot, scene, level);
+        if (path_with_straight(u, last, end_, scene).time < Infinity) {
+            return arrival_at_edge(u, last, end_, root, slot, scene);
+        }
+    }
+    return { phase: 0.0, side: slot.side, path: NO_PATH };
 }
 
 /**
@@ -4759,9 +4857,8 @@ export function first_with_straight(u, last, begin, slot, scene, until_) {
         // The last arc is on the circle itself: the vehicle would have been in the slot before.
         return none;
     }
-    let path;
     if (Math.abs(excess.value) <= length_tolerance && excess.apart >= -length_tolerance) {
-        path = path_with_straight(u, last, pose, scene);
+        const path = path_with_straight(u, last, pose, scene);
         if (path.time < Infinity) {
             return { phase: slot.phase + pose.width, side: slot.side, path };
         }
@@ -4778,10 +4875,9 @@ export function first_with_straight(u, last, begin, slot, scene, until_) {
                 -length_tolerance;
         if (exists && (excess.value >= 0.0 && 0.0 > excess_ahead.value) && excess.value - excess_ahead.value <=
                 3.141592653589793 + 1.0) {
-            const root = root_of_excess(u, last, pose, ahead, slot, scene);
-            path = path_with_straight(u, last, root, scene);
-            if (path.time < Infinity) {
-                return { phase: slot.phase + root.width, side: slot.side, path };
+            const found = arrival_at_root(u, last, pose, ahead, slot, scene, length_tolerance);
+            if (found.path.time < Infinity) {
+                return found;
             }
         }
         pose = ahead;
@@ -4819,8 +4915,14 @@ export function middle_at(u, half, pose, slot, scene) {
  * @type {(u: number, middle: Middle, pose: SlotPose, scene: WindScene) => Path}
  */
 export function path_of_three_arcs(u, middle, pose, scene) {
-    const ends = { c0: scene.c, s0: scene.s, c: pose.c, s: pose.s, wx: scene.wx, wy: scene.wy, arc_tolerance:
+    let ends = { c0: scene.c, s0: scene.s, c: pose.c, s: pose.s, wx: scene.wx, wy: scene.wy, arc_tolerance:
             scene.arc_tolerance };
+    const path = with_turns(three_arcs(u, middle.arc, middle.dx, middle.dy, ends), pose);
+    if (path.time < Infinity) {
+        return path;
+    }
+    // An arc may fall short of zero by as much as counts as a root.
+    ends = { ...ends, arc_tolerance: THREE_ARCS * scene.arc_tolerance };
     return with_turns(three_arcs(u, middle.arc, middle.dx, middle.dy, ends), pose);
 }
 
@@ -4836,7 +4938,7 @@ export function first_of_three_arcs(u, halves, begin, slot, scene, until_) {
     }
     const origin = slot_pose(0.0, slot, scene);
     let pose = begin;
-    const length_tolerance = 12.0 * scene.arc_tolerance;
+    const length_tolerance = THREE_ARCS * scene.arc_tolerance;
     const half = 3.141592653589793 * halves - 0.5 * angle(arc_rotation(u, scene.c, scene.s, origin.c, origin.s));
     for (let pass_1 = 0; pass_1 < MOST_STEPS; pass_1++) {
         if (pose.time > until_) {
