@@ -43,7 +43,7 @@ SLOW = {
     "planning": "wind",
     "plot": "picture",
     "": "make types",
-    "verify": "certificate certificate_in_wind",
+    "certificate": "certificate certificate_in_wind",
     "web": "api drawing failure fields history kernel layout limits load missions page places schema serve tiles touch",
 }
 

@@ -200,10 +200,10 @@ ELSEWHERE = {
     ("loiter.fences.model", "_invalidity"): "shapes.invalidity",
     ("loiter.fences.model", "_gap_m"): "shapes.gap_m",
     ("loiter.compiled.solver", "first_in_slot"): "kernel.first_in_slot",
-    ("loiter.verify.slot_check", "NODES"): "arrays.NODES",
-    ("loiter.verify.slot_check", "WEIGHTS"): "arrays.WEIGHTS",
+    ("loiter.certificate.slot_check", "NODES"): "arrays.NODES",
+    ("loiter.certificate.slot_check", "WEIGHTS"): "arrays.WEIGHTS",
     ("loiter.kernel.words", "encode"): "arrays.encode",
-    ("loiter.verify.trajectory", "word_of"): "arrays.word_of",
+    ("loiter.certificate.trajectory", "word_of"): "arrays.word_of",
 }
 LIBRARY_HEAD = """// @ts-nocheck
 // What is between the kernel and the page: problems, maneuvers, their answers, certificates and files.

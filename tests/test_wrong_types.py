@@ -5,7 +5,7 @@ from inspect import isclass, isfunction, signature
 import pytest
 
 import loiter
-from loiter import Aircraft, Maneuver, Orbit, Pose, Wind, batch, fences, geo, guidance, io, mavlink, plot, verify
+from loiter import Aircraft, Maneuver, Orbit, Pose, Wind, batch, certificate, fences, geo, guidance, io, mavlink, plot
 from loiter.errors import InvalidArgument
 from loiter.guidance import State
 from loiter.io import Mission, Site
@@ -45,9 +45,9 @@ CALLS = [
     (ORBIT.distance_m, {"pose": POSE}, "pose"),
     (Orbit(0.0, 0.0, 80.0, "cw", 1.0).after, {"time_s": 2.0}, "time_s"),
     (MANEUVER.over_ground, {"pose": POSE}, "pose"),
-    (verify.certify, {"maneuver": MANEUVER}, "maneuver"),
-    (verify.certify_slot, {"maneuver": MANEUVER, "slot": loiter.Slot(0.0)}, "maneuver slot"),
-    (verify.certify_arrival, {"maneuver": MANEUVER, "time_s": 60.0, "bearing_deg": 0.0}, "maneuver"),
+    (certificate.certify, {"maneuver": MANEUVER}, "maneuver"),
+    (certificate.certify_slot, {"maneuver": MANEUVER, "slot": loiter.Slot(0.0)}, "maneuver slot"),
+    (certificate.certify_arrival, {"maneuver": MANEUVER, "time_s": 60.0, "bearing_deg": 0.0}, "maneuver"),
     (FRAME.place, {"pose": POSE}, "pose"),
     (guidance.LoiterEntry, SCENE, "orbit aircraft wind roll"),
     (guidance.LoiterEntry.exact, SCENE, "orbit aircraft wind"),
@@ -137,8 +137,8 @@ def test_every_public_function_with_such_arguments_is_tested():
     ("call", "sentence"),
     [
         (lambda: batch.plan(None, wind=(8, 250)), "wind is (8, 250): it must be a loiter.Wind"),
-        (lambda: verify.certify("x"), "maneuver is 'x': it must be a loiter.Maneuver"),
-        (lambda: verify.certify([MANEUVER]), "maneuver is of type list: it must be a loiter.Maneuver"),
+        (lambda: certificate.certify("x"), "maneuver is 'x': it must be a loiter.Maneuver"),
+        (lambda: certificate.certify([MANEUVER]), "maneuver is of type list: it must be a loiter.Maneuver"),
         (lambda: guidance.LoiterEntry(UAV, ORBIT), f"orbit is {UAV!r}: it must be a loiter.Orbit"),
         (lambda: LAW.step((0.0, 1.0), 0.02), "state is (0.0, 1.0): it must be a loiter.guidance.State"),
         (

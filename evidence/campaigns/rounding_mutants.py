@@ -20,10 +20,10 @@ from types import ModuleType
 from typing import Any, NamedTuple
 
 from evidence.campaigns import bridging
+from loiter.certificate.rounding_bound import units_at
 from loiter.kernel import angles, exact
 from loiter.kernel.still_air import extremals
 from loiter.kernel.words import Word, mirrored
-from loiter.verify.rounding_bound import units_at
 
 SCOPE: dict[ModuleType, tuple[str, ...]] = {
     exact: ("two_sum", "split", "two_product", "beyond_circles", "square_beyond"),

@@ -10,13 +10,13 @@ if TYPE_CHECKING:
     from typing import Any
 
     from loiter import batch as batch
+    from loiter import certificate as certificate
     from loiter import errors as errors
     from loiter import geo as geo
     from loiter import guidance as guidance
     from loiter import io as io
     from loiter import mavlink as mavlink
     from loiter import plot as plot
-    from loiter import verify as verify
     from loiter import web as web
     from loiter.arrays import (
         Gradient,
@@ -59,7 +59,7 @@ _NAMES = {
     }.items()
     for name in names.split()
 }
-_MODULES = {"batch", "errors", "fences", "geo", "guidance", "io", "mavlink", "plot", "verify", "web"}
+_MODULES = {"batch", "errors", "fences", "geo", "guidance", "io", "mavlink", "certificate", "plot", "web"}
 
 __all__ = [
     "Aircraft",

@@ -5,8 +5,8 @@ import shlex
 
 import pytest
 
+from loiter.certificate import accuracy as module
 from loiter.cli.app import main
-from loiter.verify import accuracy as module
 
 UNIT = "--orbit 0 0 1 --airspeed 1 --turn-radius 1"
 EXAMPLE_1 = f"plan --pose 4 4 90 {UNIT} --certify"

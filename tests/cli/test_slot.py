@@ -3,7 +3,7 @@
 import pytest
 
 from loiter import Aircraft, Orbit, Pose, Slot, plan, plan_at
-from loiter.verify.slot_certificate import BASIS_ARRIVAL
+from loiter.certificate.slot_certificate import BASIS_ARRIVAL
 
 SCENE = "--pose -400 120 90 --orbit 0 0 120 --airspeed 18 --bank 35"
 PLANNED = Pose(-400.0, 120.0, 90.0), Orbit(0.0, 0.0, 120.0), Aircraft(18.0, max_bank_deg=35.0)

@@ -22,7 +22,7 @@ PACKAGES = [
     "loiter.io",
     "loiter.mavlink",
     "loiter.plot",
-    "loiter.verify",
+    "loiter.certificate",
 ]
 
 # Import paths that the documentation has given, with the names found there.
@@ -36,7 +36,7 @@ DOCUMENTED = {
     "loiter.lab.trials.flight": ["fly"],
     "loiter.lab.trials.summary": ["summary"],
     "loiter.planning.model": ["Aircraft", "Orbit", "Pose", "Segment", "Turn", "Wind"],
-    "loiter.verify.certificate": ["Certificate", "certify"],
+    "loiter.certificate.entry_certificate": ["Certificate", "certify"],
     "loiter.web": ["serve"],
 }
 
@@ -85,8 +85,8 @@ def keys(value):
 
 
 def documents():
+    from loiter.certificate.entry_certificate import certify
     from loiter.io.document import answer
-    from loiter.verify.certificate import certify
 
     uav = loiter.Aircraft(18.0, max_bank_deg=35.0)
     scene = loiter.Pose(-400.0, 120.0, 90.0), loiter.Orbit(0.0, 0.0, 120.0), uav

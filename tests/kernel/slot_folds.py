@@ -22,13 +22,13 @@ import numpy as np
 from scipy.optimize import fsolve
 
 from kernel.slots import REACHED, Scenes, closest_between, least_times, random_scenes
+from loiter.certificate.slot_check import distance
 from loiter.compiled.solver import first_in_slot
 from loiter.kernel.angles import angle, arc_rotation
 from loiter.kernel.wind import slots
 from loiter.kernel.wind.hold import hold_pose
 from loiter.kernel.wind.moving_target import NO_PATH
 from loiter.kernel.wind.wind_search import WindProblem, scene_of, time_of
-from loiter.verify.slot_check import distance
 
 # How far beside a fold the slot is moved, and by how much that moves the arrival at most: by the square root, or less.
 BESIDE, MOVED = 1e-8, 1e-2

@@ -1,9 +1,8 @@
 """First arrivals in slots beside Buzikov's step (arXiv 2210.03439), which shares no code with the kernel.
 
-The distances are those of `loiter.verify.slot_check`; here each scene makes a step at a time, and many scenes do so at
-once. `python -m kernel.slots 10000` compares random slots in still air; `wind`
-takes slots in wind, `folds` slots next to a jump of the time, where two branches of a word meet or a word vanishes. A
-last number is the seed.
+The distances are those of `loiter.certificate.slot_check`; here each scene makes a step at a time, and many scenes do
+so at once. `python -m kernel.slots 10000` compares random slots in still air; `wind` takes slots in wind, `folds` slots
+next to a jump of the time, where two branches of a word meet or a word vanishes. A last number is the seed.
 """
 
 import sys
@@ -12,10 +11,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from loiter.certificate.slot_check import CLOSING, distance, ground_speed, hold_time
 from loiter.compiled.solver import first_in_slot
 from loiter.kernel.wind.hold import phase_of
 from loiter.kernel.wind.wind_search import WindProblem
-from loiter.verify.slot_check import CLOSING, distance, ground_speed, hold_time
 
 # The slot is reached where the distance is less; after that many steps the time so far is a lower bound alone.
 REACHED, STEPS = 1e-10, 2000

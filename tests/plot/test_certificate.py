@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from loiter import Aircraft, Orbit, Pose, candidates, plan
+from loiter.certificate import certify
 from loiter.plot.certificate import draw
 from loiter.plot.files import FORMATS, save_figure
-from loiter.verify import certify
 
 UNIT = Aircraft(1.0, min_turn_radius_m=1.0)
 SCENE = Pose(-0.53, 0.31, 90.0), Orbit(0.0, 0.0, 1.0), UNIT

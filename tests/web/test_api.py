@@ -10,11 +10,11 @@ import pytest
 import loiter
 from loiter import Aircraft, Orbit, Pose, Turn, Wind
 from loiter.arrays.partition import boundaries, partition
+from loiter.certificate import certify
 from loiter.cli.app import main
 from loiter.geo import LocalFrame
 from loiter.io.document import answer, maneuver_values
 from loiter.io.missions.items import AUTOPILOTS
-from loiter.verify import certify
 from loiter.web.answers.exports import FORMATS
 
 STILL = {

@@ -56,7 +56,7 @@ def test_every_preset_shows_what_the_library_says(page):
         assert page.locator("#optimal").inner_text().startswith(str(len(best)))
         assert page.locator("#word .word").inner_text() == maneuver.word
         assert page.locator("#timeline .switchline").count() == len(maneuver.segments) - 1
-        held = sum(residual.verdict == "holds" for residual in loiter.verify.certify(maneuver).residuals)
+        held = sum(residual.verdict == "holds" for residual in loiter.certificate.certify(maneuver).residuals)
         assert page.locator("#verdict").inner_text().startswith(f"All {held} conditions hold.")
         for example in EXAMPLES:
             if name == f"Paper, {example.name}":

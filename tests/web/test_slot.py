@@ -8,9 +8,9 @@ import pytest
 from playwright.sync_api import expect
 
 import loiter
+from loiter.certificate import certify_slot
 from loiter.planning.problem import Problem
 from loiter.planning.slot import slot_pose
-from loiter.verify import certify_slot
 from web.browsing import (
     CHORDS,
     PHONE,

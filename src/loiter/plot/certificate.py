@@ -5,8 +5,8 @@ from __future__ import annotations
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from loiter.certificate.entry_certificate import Certificate, Instant
 from loiter.plot.picture import COLOURS
-from loiter.verify.certificate import Certificate, Instant
 
 # Chords of a sine over a hundredth of a turn differ from it by 0.05 % of its height, less than the width of a line.
 STEPS = 100

@@ -12,6 +12,7 @@ from rich.console import RenderableType
 from rich.text import Text
 
 import loiter
+from loiter.certificate.entry_certificate import Certificate
 from loiter.cli import report
 from loiter.cli.fences import FenceOptions, check_fence
 from loiter.cli.options import (
@@ -49,7 +50,6 @@ from loiter.planning.model import Turn
 from loiter.planning.problem import Problem
 from loiter.planning.slot import Slot
 from loiter.planning.solve import best_and_others, best_and_others_in_slot
-from loiter.verify.certificate import Certificate
 
 # A place on the circle and when to be there: a slot, or a time in seconds from the start and a bearing in degrees.
 Place = Slot | tuple[float, float]
@@ -216,13 +216,13 @@ def _solved(
     Certificates need NumPy: a plan without one does not load it.
     """
     if place is None:
-        return *best_and_others(problem), lambda m: loiter.verify.certify(m, tolerance_m=problem.tolerance_m)
+        return *best_and_others(problem), lambda m: loiter.certificate.certify(m, tolerance_m=problem.tolerance_m)
     if isinstance(place, Slot):
-        return *best_and_others_in_slot(problem, place), lambda m: loiter.verify.certify_slot(m, slot=place)
+        return *best_and_others_in_slot(problem, place), lambda m: loiter.certificate.certify_slot(m, slot=place)
     time_s, bearing_deg = place
     with argument_names(time_s="arrive_s"):
         best, others = best_and_others_at(problem, time_s, bearing_deg)
-    return best, others, lambda m: loiter.verify.certify_arrival(m, time_s=time_s, bearing_deg=bearing_deg)
+    return best, others, lambda m: loiter.certificate.certify_arrival(m, time_s=time_s, bearing_deg=bearing_deg)
 
 
 def _target(autopilot: AutopilotName | None, uav: AircraftOptions) -> Autopilot:

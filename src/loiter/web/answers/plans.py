@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from loiter.certificate.entry_certificate import Instant, certify
+from loiter.certificate.slot_certificate import certify_slot
 from loiter.io.document import PlacedProblem, answer, maneuver_values
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.problem import Problem
 from loiter.planning.slot import Slot
 from loiter.planning.solve import all_fastest, arrivals, best_and_others, best_and_others_in_slot, extremals
-from loiter.verify.certificate import Instant, certify
-from loiter.verify.slot_certificate import certify_slot
 from loiter.web.answers.texts import command, instruction, python
 from loiter.web.answers.tracks import track
 

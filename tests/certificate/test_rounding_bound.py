@@ -10,11 +10,8 @@ pytest.importorskip("flint")
 from evidence.campaigns import bridging
 from evidence.campaigns.bridging import Answer, Case
 from loiter import Aircraft, Orbit, Pose, Wind, candidates, plan
-from loiter.kernel.words import Word
-from loiter.planning.model import SIDES
-from loiter.planning.problem import problem_of
-from loiter.verify import certify
-from loiter.verify.rounding_bound import (
+from loiter.certificate import certify
+from loiter.certificate.rounding_bound import (
     BY_THEOREMS,
     LATE,
     LATE_BEYOND,
@@ -26,6 +23,9 @@ from loiter.verify.rounding_bound import (
     rounding_bound,
     units_at,
 )
+from loiter.kernel.words import Word
+from loiter.planning.model import SIDES
+from loiter.planning.problem import problem_of
 
 # R = 1, past the switching curve by an arc that counts as none: late by 21.5 units.
 PAST_THE_CURVE = Case(0.03302678726138515, 0.026673956063606785, 1.0, 1, "switching curve")

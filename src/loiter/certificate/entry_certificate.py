@@ -16,17 +16,17 @@ from itertools import pairwise
 from math import isfinite
 from typing import NamedTuple
 
+from loiter.certificate.accuracy import accuracy_of
+from loiter.certificate.adjoints import trajectory_of
+from loiter.certificate.conditions import IN_WIND, residuals
+from loiter.certificate.paper_conditions import IN_STILL_AIR
+from loiter.certificate.rounding_bound import RoundingBound, rounding_bound
+from loiter.certificate.trajectory import Candidate, FlownPiece, Residual, Trajectory
 from loiter.errors import InvalidArgument, instance
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CONTROLS, Turn
 from loiter.planning.problem import Problem, problem_of
 from loiter.planning.solve import extremals
-from loiter.verify.accuracy import accuracy_of
-from loiter.verify.adjoints import trajectory_of
-from loiter.verify.conditions import IN_WIND, residuals
-from loiter.verify.paper_conditions import IN_STILL_AIR
-from loiter.verify.rounding_bound import RoundingBound, rounding_bound
-from loiter.verify.trajectory import Candidate, FlownPiece, Residual, Trajectory
 
 LETTERS = {u: letter for letter, u in CONTROLS.items()}
 

@@ -1,4 +1,4 @@
-"""Certificates of entries into slots by the hundred: `python -m verify.slot_certificates 300`.
+"""Certificates of entries into slots by the hundred: `python -m certificate.slot_certificates 300`.
 
 Plans at random, in still air and in wind, must have a valid certificate; `folds` takes slots next to jumps of the time.
 Wrong maneuvers and wrong slots, made from such plans, must have none: a later root (another word that meets the slot,
@@ -17,6 +17,8 @@ import numpy as np
 
 from kernel.slots import fold_scenes, random_scenes
 from loiter import Aircraft, Orbit, Pose, Slot, Turn, Wind, plan
+from loiter.certificate import certify_slot
+from loiter.certificate.slot_check import resolution
 from loiter.kernel.entry import Entry
 from loiter.kernel.wind import slots
 from loiter.kernel.wind.slots import arrival_of
@@ -27,8 +29,6 @@ from loiter.planning.model import sign_of, wind_from_velocity
 from loiter.planning.problem import Problem, problem_of
 from loiter.planning.problem import maneuver as scaled
 from loiter.planning.slot import phase_at_start
-from loiter.verify import certify_slot
-from loiter.verify.slot_check import resolution
 
 UAV = Aircraft(18.0, min_turn_radius_m=50.0)
 MILLIONTH = 1e-6

@@ -3,7 +3,7 @@
 import pytest
 
 from loiter import Aircraft, Orbit, Pose, Wind, plan
-from loiter.verify import certify
+from loiter.certificate import certify
 
 UAV = Aircraft(18.0, max_bank_deg=35.0)
 SCENES = {

@@ -14,19 +14,19 @@ from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 import loiter
+from certificate.certificates import altered, at_axis, at_curve, at_tie, certified, real, reduced, wrong_ones
 from evidence.checks.oracle_check import random_problems as hard_problems
 from golden.paper import EXAMPLES
 from loiter import Aircraft, Orbit, Pose, Turn, candidates, plan, plan_all
+from loiter.certificate import Certificate, certify, gradient
+from loiter.certificate.accuracy import accuracy_of
+from loiter.certificate.adjoints import trajectory_of
+from loiter.certificate.conditions import IN_WIND
+from loiter.certificate.least_times import least_times
+from loiter.certificate.paper_conditions import IN_STILL_AIR
 from loiter.errors import InvalidArgument
 from loiter.planning.problem import problem_of
-from loiter.verify import Certificate, certify, gradient
-from loiter.verify.accuracy import accuracy_of
-from loiter.verify.adjoints import trajectory_of
-from loiter.verify.conditions import IN_WIND
-from loiter.verify.least_times import least_times
-from loiter.verify.paper_conditions import IN_STILL_AIR
 from strategies import coordinates, radii, scenes, turns
-from verify.certificates import altered, at_axis, at_curve, at_tie, certified, real, reduced, wrong_ones
 
 UNIT = Aircraft(1.0, min_turn_radius_m=1.0)
 SQRT3 = sqrt(3.0)
@@ -332,7 +332,7 @@ def test_json_of_a_scene_at_the_end_of_doubles_is_finite_too():
 
 
 def test_a_certificate_is_frozen_and_reads_as_a_table():
-    certificate = loiter.verify.certify(plan(*unit_scene(-0.53, 0.31)))
+    certificate = loiter.certificate.certify(plan(*unit_scene(-0.53, 0.31)))
     assert isinstance(certificate, Certificate)
     with pytest.raises(AttributeError):
         certificate.lam = 0.0
@@ -359,7 +359,7 @@ def test_every_equation_of_a_certificate_is_in_the_document_that_it_names():
     listed = set(
         re.findall(r"^\| \((\d+)\) \|", Path("evidence/docs/paper.md").read_text(encoding="utf-8"), re.MULTILINE)
     )
-    certificate = loiter.verify.certify(plan(*unit_scene(-0.53, 0.31)))
+    certificate = loiter.certificate.certify(plan(*unit_scene(-0.53, 0.31)))
     named = {number for r in certificate.residuals for number in re.findall(r"\((\d+)\)", r.equation)}
     assert named
     assert named <= listed
@@ -437,7 +437,7 @@ def test_no_optimum_is_claimed_for_a_loser():
 
 def test_an_unknown_name_is_an_attribute_error():
     with pytest.raises(AttributeError, match=r"module 'loiter\.verify' has no attribute 'prove'"):
-        loiter.verify.prove  # noqa: B018
+        loiter.certificate.prove  # noqa: B018
 
 
 def test_a_lone_arc_begun_beside_its_circle_within_the_tolerance_is_certified():

@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from math import hypot, inf
 from typing import NamedTuple
 
+from loiter.certificate.trajectory import FlownPiece, Trajectory
 from loiter.compiled import solver
 from loiter.kernel.entry import WIND_TIE_TOLERANCE, Entry, duration
 from loiter.kernel.exact import beyond
@@ -16,7 +17,6 @@ from loiter.kernel.still_air.synthesis import optimum
 from loiter.kernel.wind import wind_search
 from loiter.kernel.words import Side, Word
 from loiter.planning.problem import ReducedProblem
-from loiter.verify.trajectory import FlownPiece, Trajectory
 
 # Steps of difference quotients of T in still air, each half the one before: from a sixteenth of a turn radius, over
 # which T is rarely linear, to where rounding, 64 units of 2^-52 over the step, uses up what `gradient.RESOLVED` allows.

@@ -9,10 +9,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
+from loiter.certificate.accuracy import STEP, Accuracy
+from loiter.certificate.gradient import GradientEquations, gradient_residuals
+from loiter.certificate.trajectory import Candidate, FlownPiece, PieceState, Residual, Trajectory, inner
 from loiter.planning.model import Turn
-from loiter.verify.accuracy import STEP, Accuracy
-from loiter.verify.gradient import GradientEquations, gradient_residuals
-from loiter.verify.trajectory import Candidate, FlownPiece, PieceState, Residual, Trajectory, inner
 
 
 class Violation(NamedTuple):

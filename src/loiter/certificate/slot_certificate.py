@@ -13,21 +13,12 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import radians, sin
 
-from loiter.errors import instance, number, positive
-from loiter.kernel.rounding import ROUNDING, rounding
-from loiter.kernel.wind.elongation import possible_times
-from loiter.planning.arrival import placed_arrival
-from loiter.planning.maneuver import Maneuver
-from loiter.planning.model import CONTROLS, Turn, directions, sign_of
-from loiter.planning.problem import Problem, problem_of
-from loiter.planning.slot import Slot
-from loiter.planning.solve import arrivals
-from loiter.verify.accuracy import accuracy_in_wind
-from loiter.verify.adjoints import SHORT, start_in_wind, switch_adjoints, vanishing_at
-from loiter.verify.certificate import BASIS_VIOLATED, Certificate, certificate_values, switches_of
-from loiter.verify.conditions import IN_WIND, join, motion_residuals, turn
-from loiter.verify.slot_check import HeldCircle, LowerBound, SlotState, no_arrival_before, resolution
-from loiter.verify.trajectory import (
+from loiter.certificate.accuracy import accuracy_in_wind
+from loiter.certificate.adjoints import start_in_wind, switch_adjoints, vanishing_at
+from loiter.certificate.conditions import IN_WIND, join, motion_residuals, turn
+from loiter.certificate.entry_certificate import BASIS_VIOLATED, Certificate, certificate_values, switches_of
+from loiter.certificate.slot_check import HeldCircle, LowerBound, SlotState, no_arrival_before, resolution
+from loiter.certificate.trajectory import (
     Candidate,
     InitialAdjoint,
     RelativeStart,
@@ -38,6 +29,16 @@ from loiter.verify.trajectory import (
     held_turn,
     word_of,
 )
+from loiter.errors import instance, number, positive
+from loiter.kernel.rounding import ROUNDING, rounding
+from loiter.kernel.wind.elongation import possible_times
+from loiter.kernel.wind.fits import SHORT
+from loiter.planning.arrival import placed_arrival
+from loiter.planning.maneuver import Maneuver
+from loiter.planning.model import CONTROLS, Turn, directions, sign_of
+from loiter.planning.problem import Problem, problem_of
+from loiter.planning.slot import Slot
+from loiter.planning.solve import arrivals
 
 # The distance from the slot, in roundings of the scene's size, at which the kernel counts a double root as an arrival.
 DOUBLE_ROOT = 8.0
@@ -145,7 +146,7 @@ def certify_slot(maneuver: Maneuver, slot: Slot) -> SlotCertificate:
     """The certificate of a maneuver into a slot, the fastest or not.
 
     The maneuver is recomputed from its start, its letters and its durations, and the slot by quadrature. A maneuver for
-    either direction must be no later than any arrival in either. Raises the errors of `loiter.verify.certify`.
+    either direction must be no later than any arrival in either. Raises the errors of `loiter.certificate.certify`.
 
     >>> from loiter import Aircraft, Orbit, Pose, Slot
     >>> pose, orbit, slot = Pose(-400.0, 120.0, 90.0), Orbit(0.0, 0.0, 120.0), Slot(200.0)

@@ -9,16 +9,16 @@ import pytest
 from hypothesis import given, settings
 
 import loiter
+from certificate.certificates import altered, at_windy_tie, certified, worst
 from evidence.checks.wind_scan_check import random_problems
 from loiter import Aircraft, Orbit, Pose, Wind, candidates, hold, plan, plan_all
+from loiter.certificate import certify
 from loiter.errors import InvalidArgument
 from loiter.kernel.entry import Entry
 from loiter.kernel.wind import wind_search
 from loiter.kernel.wind.paths import first_path
 from loiter.planning.problem import Problem, maneuver
-from loiter.verify import certify
 from strategies import windy_scenes
-from verify.certificates import altered, at_windy_tie, certified, worst
 
 settings.register_profile("certificate in wind", deadline=None, max_examples=12)
 settings.load_profile("certificate in wind")

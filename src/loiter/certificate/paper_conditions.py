@@ -13,14 +13,14 @@ from functools import partial
 from itertools import pairwise
 from math import atan2, hypot, pi, sqrt
 
+from loiter.certificate import conditions
+from loiter.certificate.accuracy import Accuracy
+from loiter.certificate.conditions import Condition, EquationOfMotion, Formulation, Violation
+from loiter.certificate.gradient import GradientEquations
+from loiter.certificate.trajectory import FlownPiece, Trajectory
 from loiter.kernel.angles import angle
 from loiter.kernel.still_air.extremals import onto_axis
 from loiter.planning.model import CALM, Turn
-from loiter.verify import conditions
-from loiter.verify.accuracy import Accuracy
-from loiter.verify.conditions import Condition, EquationOfMotion, Formulation, Violation
-from loiter.verify.gradient import GradientEquations
-from loiter.verify.trajectory import FlownPiece, Trajectory
 
 
 def target(trajectory: Trajectory, accuracy: Accuracy) -> Violation:

@@ -10,14 +10,14 @@ from random import Random
 import numpy as np
 import pytest
 
+from certificate.certificates import altered, certified
+from certificate.slot_certificates import UAV, later_roots, scene, stays_in_slot, wrong_ones
 from kernel.slots import fold_scenes, random_scenes
 from loiter import Aircraft, Orbit, Pose, Slot, Turn, Wind, plan, plan_at
+from loiter.certificate import certify, certify_arrival, certify_slot
 from loiter.errors import ImpossibleTime, InvalidArgument
 from loiter.kernel.rounding import ROUNDING
 from loiter.planning.problem import problem_of
-from loiter.verify import certify, certify_arrival, certify_slot
-from verify.certificates import altered, certified
-from verify.slot_certificates import UAV, later_roots, scene, stays_in_slot, wrong_ones
 
 POSE, ORBIT = Pose(-400.0, 120.0, 90.0), Orbit(0.0, 0.0, 120.0)
 AIRCRAFT, SLOT = Aircraft(18.0, max_bank_deg=35.0), Slot(200.0)

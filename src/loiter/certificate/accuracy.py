@@ -28,10 +28,10 @@ from collections.abc import Sequence
 from math import hypot, radians, sin, sqrt
 from typing import NamedTuple
 
+from loiter.certificate.trajectory import Candidate, MaximumPrinciple, Trajectory, inner
 from loiter.kernel.entry import WIND_TIE_TOLERANCE
 from loiter.kernel.rounding import ROUNDING, rounding
 from loiter.planning.maneuver import Maneuver
-from loiter.verify.trajectory import Candidate, MaximumPrinciple, Trajectory, inner
 
 # Steps of central differences of functions known to their last digits, whose third derivative is of the size of the
 # function: truncation step^2/6 and rounding ROUNDING/step, 1e-9 and 4e-10 of the size, nearly balance.

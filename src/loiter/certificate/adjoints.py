@@ -13,16 +13,7 @@ from itertools import pairwise
 from math import atan2, cos, hypot, pi, sqrt
 from typing import NamedTuple
 
-from loiter.kernel.adjoint import adjoint, switching_function, turn_adjoint
-from loiter.kernel.entry import Entry
-from loiter.kernel.motion import flow
-from loiter.kernel.rounding import rounding
-from loiter.kernel.wind import fits
-from loiter.kernel.words import encode
-from loiter.planning.maneuver import Maneuver
-from loiter.planning.model import CONTROLS, sign_of
-from loiter.planning.problem import Problem
-from loiter.verify.trajectory import (
+from loiter.certificate.trajectory import (
     FlownPiece,
     InitialAdjoint,
     RelativeStart,
@@ -34,9 +25,15 @@ from loiter.verify.trajectory import (
     inner,
     word_of,
 )
-
-# A piece of at most this duration may be due to rounding alone: adjoints are then tried without it too.
-SHORT = fits.SHORT
+from loiter.kernel.adjoint import adjoint, switching_function, turn_adjoint
+from loiter.kernel.entry import Entry
+from loiter.kernel.motion import flow
+from loiter.kernel.rounding import rounding
+from loiter.kernel.wind.fits import SHORT
+from loiter.kernel.words import encode
+from loiter.planning.maneuver import Maneuver
+from loiter.planning.model import CONTROLS, sign_of
+from loiter.planning.problem import Problem
 
 # Directions of p tried for a single arc, for which many p may meet the conditions.
 SCANNED_DIRECTIONS = 720

@@ -1,4 +1,4 @@
-"""Certificates by the hundred thousand: `python -m verify.certificates`.
+"""Certificates by the hundred thousand: `python -m certificate.certificates`.
 
 Plans at random and next to boundaries and ties, in still air and in wind: each must have a valid certificate. Wrong
 maneuvers, made from such plans: none may have one. `--worst` searches instead for the plan in wind whose residuals come
@@ -22,13 +22,13 @@ import numpy as np
 from kernel.worst import drawn as worst_drawn
 from kernel.worst import states as worst_states
 from loiter import Aircraft, Maneuver, Orbit, Pose, Turn, Wind, candidates, plan
+from loiter.certificate import Certificate, certify
 from loiter.kernel.entry import WIND_TIE_TOLERANCE, Entry
 from loiter.kernel.rounding import rounding
 from loiter.kernel.words import Word
 from loiter.planning.model import CONTROLS
 from loiter.planning.problem import maneuver as scaled
 from loiter.planning.problem import problem_of
-from loiter.verify import Certificate, certify
 
 UNIT = Aircraft(1.0, min_turn_radius_m=1.0)
 TURNS = tuple(Turn)

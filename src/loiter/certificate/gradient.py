@@ -15,9 +15,9 @@ from functools import partial
 from math import hypot, inf
 from typing import NamedTuple
 
-from loiter.verify.accuracy import Accuracy
-from loiter.verify.least_times import LeastTimes, least_times
-from loiter.verify.trajectory import Residual, Trajectory, inner
+from loiter.certificate.accuracy import Accuracy
+from loiter.certificate.least_times import LeastTimes, least_times
+from loiter.certificate.trajectory import Residual, Trajectory, inner
 
 # The bound of a gradient of T must be below this share of its size.
 RESOLVED = 1e-3
