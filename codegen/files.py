@@ -38,6 +38,7 @@ SINGLE = (
     wind_search.is_local_minimum,
     wind_search.entry_near_sample,
     slots.first_in_slot,
+    paths.path_to_pose,
 )
 
 # The state of a search, which would take longer to copy than a step of the search, is passed by address.
@@ -95,7 +96,7 @@ PLANNING = (
     held.time_held,
     held.width_held,
     slots.first_in_slot,
-    paths.first_path_of,
+    paths.path_to_pose,
     words.controls,
     words.set_of,
 )
@@ -193,6 +194,9 @@ ELSEWHERE = {
     ("loiter.compiled.solver", "optimum"): "kernel.optimum",
     ("loiter.arrays.still_air", "min_time"): "arrays.min_time",
     ("loiter.arrays.wind", "min_time_in_wind"): "arrays.min_time_in_wind",
+    ("loiter.fences.airs", "_paths_to_poses"): "arrays.path_to_pose",
+    ("loiter.fences.airs", "_optima"): "arrays.optima",
+    ("loiter.fences.airs", "_optima_in_wind"): "arrays.optima_in_wind",
     ("loiter.kernel.motion", "reduce"): "arrays.reduce_states",
     # The page has no string pulled taut, which needs shapely: its bound is the fastest entry.
     ("loiter.fences.taut", "least_length_m"): "arrays.no_length",

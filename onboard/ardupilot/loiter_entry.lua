@@ -2,7 +2,7 @@
 --
 -- Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
 --
--- SHA-256 of the source: ce414e4a5777dfa363e3a5261bc1acd074a28061ae9149d0657a9ddb838b880c
+-- SHA-256 of the source: 72289c7b5153a52b696c287df11e25f724c7eaca3be81516cace520e6cbe1aa9
 --
 -- When a switch asks for it, this script flies a plane onto the holding circle around its present target in least
 -- time, and then leaves the circle to ArduPlane: loiter_entry.md. It works by GUIDED_CHANGE_HEADING in GUIDED: the target

@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 8913b85d5bd4b1f0a872cfdcc4f80629a3826dc956d447e225b7a48a77570f10
+ * SHA-256 of the source: cfcd3d6d94be16a8dee050374211c54a91865eb6697917dc68af45356610921c
  */
 #include "loiter.h"
 

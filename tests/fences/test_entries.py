@@ -48,6 +48,7 @@ def test_none_is_clear():
     known = candidates(POSE, Orbit(0.0, 0.0, 100.0), UAV)
     found = first_clear(Fence((CircleZone("mast", 100.0, 0.0, 9.0),)), known)
     assert (found.maneuver, found.tried) == (None, len(known))
-    assert found.sentence == f"No entry found: of the {len(known)} candidates none is clear, 'mast' blocks here."
+    blocked = f"'mast' blocks the {len(known)} candidates"
+    assert found.sentence == f"No entry found: {blocked}, and no other path was searched."
     with pytest.raises(InvalidArgument, match="maneuvers has none to choose from"):
         first_clear(Fence((CircleZone("mast", 100.0, 0.0, 9.0),)), [])

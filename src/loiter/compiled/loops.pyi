@@ -8,3 +8,4 @@ solve: Any
 min_time_in_wind: Any
 solve_in_wind: Any
 gradient: Any
+path_to_pose: Any

@@ -5,7 +5,7 @@ arrays of other libraries.
 """
 
 from collections.abc import Callable
-from math import nan
+from math import inf, nan
 from typing import Any
 
 import numpy as np
@@ -17,7 +17,9 @@ from loiter.kernel.statuses import Status
 from loiter.kernel.still_air import synthesis
 from loiter.kernel.still_air.value_gradient import value_gradient
 from loiter.kernel.wind import wind_search
+from loiter.kernel.wind.paths import path_to_pose as first_path_to_pose
 from loiter.kernel.wind.wind_search import WindProblem
+from loiter.kernel.words import set_of
 
 # The types of results: those of `solve`, and those of `solve_in_wind`, without the durations' axis.
 _SOLVED = (np.float64, np.int8, np.float64, np.int8, np.int8, np.float64)
@@ -74,6 +76,12 @@ def _time_in_wind(*numbers: float) -> float:
     return time
 
 
+def _path_to_pose(word: float, *numbers: float) -> tuple[float, float, float]:
+    """The durations of the first path of a word to a pose."""
+    path = first_path_to_pose(set_of(int(word)), *numbers)
+    return (path.t1 if path.time < inf else inf), path.t2, path.t3
+
+
 def _ufunc(function: Callable[..., Any], inputs: int, outputs: int) -> Callable[..., Any]:
     """A function of numbers as one of arrays of float64."""
     of_objects = np.frompyfunc(function, inputs, outputs)
@@ -111,5 +119,6 @@ def _solver(function: Callable[..., tuple[Any, ...]], inputs: int, types: tuple[
 min_time, control = _ufunc(_time, 5, 1), _ufunc(_control, 5, 1)
 reduce, gradient = _ufunc(motion.reduce, 4, 2), _ufunc(_gradient, 4, 3)
 min_time_in_wind = _ufunc(_time_in_wind, 9, 1)
+path_to_pose = _ufunc(_path_to_pose, 8, 3)
 solve = _solver(_solved, 5, _SOLVED)
 solve_in_wind = _solver(_solved_in_wind, 9, _SOLVED_IN_WIND)

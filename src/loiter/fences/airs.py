@@ -14,7 +14,7 @@ from numpy import bool_, float64
 from numpy.typing import NDArray
 
 from loiter.arrays import min_time, min_time_in_wind
-from loiter.compiled import solver
+from loiter.compiled import solver, ufuncs
 from loiter.fences.contacts import Contacts, Curve
 from loiter.fences.distances import Arcs, arc_to_edge, arc_to_point, chord_to_edge, chord_to_point
 from loiter.fences.fence import Fence
@@ -22,14 +22,12 @@ from loiter.fences.search import TOUCH_M
 from loiter.fences.words import Word, Words, words_between
 from loiter.kernel import motion
 from loiter.kernel.entry import Entry
-from loiter.kernel.rounding import ROUNDING, rounded_radius, rounding
+from loiter.kernel.rounding import ROUNDING, rounded_radius
 from loiter.kernel.statuses import Status
 from loiter.kernel.still_air.synthesis import ranked
 from loiter.kernel.wind import wind_search
-from loiter.kernel.wind.hold import phase_of
-from loiter.kernel.wind.paths import WindScene, first_path_of
 from loiter.kernel.wind.wind_search import WindProblem
-from loiter.kernel.words import ABSENT, controls, encode, set_of
+from loiter.kernel.words import ABSENT, controls, encode
 from loiter.planning.model import SIDES
 from loiter.planning.problem import Problem
 
@@ -40,8 +38,16 @@ CHORD_ERROR_M = 0.01
 # may be nearer to a zone about which it bends by the error of a chord, and must be farther than the margin by that.
 STILL_AIR_GAP_M, WIND_GAP_M = 10.0 * TOUCH_M, 2.1 * CHORD_ERROR_M
 
-# The six words of three pieces.
-SIX = [set_of(encode(u, v, w)) for u, v, w in ((1, 0, 1), (-1, 0, -1), (1, 0, -1), (-1, 0, 1), (1, -1, 1), (-1, 1, -1))]
+# The six words of three pieces, and their controls.
+SIX_CONTROLS = [
+    [1.0, 0.0, 1.0],
+    [-1.0, 0.0, -1.0],
+    [1.0, 0.0, -1.0],
+    [-1.0, 0.0, 1.0],
+    [1.0, -1.0, 1.0],
+    [-1.0, 1.0, -1.0],
+]
+SIX = [encode(int(u), int(v), int(w)) for u, v, w in SIX_CONTROLS]
 
 
 class Pose2(NamedTuple):
@@ -103,10 +109,22 @@ class StillAir:
         length = np.stack([turned * curve.radius, zero, zero], axis=-1)
         return Words(others, np.full(length.shape, float(way)), length, np.full(length.shape, curve.radius))
 
+    def fastest_entries(self, poses: Pose2) -> Words:
+        """The fastest entry from each of poses as arrays, which leads to the side of the circle: 1 or -1."""
+        orbit, r = self._problem.orbit, self._radius_m
+        dx, dy = (poses.x - orbit.east_m) / r, (poses.y - orbit.north_m) / r
+        x, y = motion.reduce(dx, dy, np.cos(poses.heading), np.sin(poses.heading))
+        return _words_of(_optima(x, y, max(self._problem.radius, 1.0), SIDES[orbit.turn]), r)
+
+    def flown(self, start: Pose2, control: Any, length: Any) -> Pose2:
+        """The poses after a length of one control each, metres, from poses as arrays."""
+        x, y = _flown(start.x, start.y, start.heading, control, length, self._radius_m, 0.0, 0.0)
+        return Pose2(x, y, start.heading + control * length / self._radius_m)
+
     def are_clear(self, start: Pose2, words: Words) -> NDArray[bool_]:
         """In closed form."""
         clear = np.ones(words.to.size, bool)
-        x, y, heading = (np.full(words.to.size, value) for value in start)
+        x, y, heading = (np.zeros(words.to.size) + value for value in start)
         for k in range(3):
             u, length, radius = words.control[:, k], words.length[:, k], words.radius[:, k]
             c, s, angle = np.cos(heading), np.sin(heading), length / radius
@@ -189,21 +207,15 @@ class SteadyWind:
 
     def words(self, start: Pose2, at: int | None, contacts: Contacts, headings: NDArray[float64]) -> Words:
         """The first path of each of the six words to each contact."""
-        r, rows = self._radius_m, []
-        heading = cos(start.heading), sin(start.heading)
-        placed = (~contacts.anywhere).nonzero()[0]
-        places = zip(*(v[placed].tolist() for v in (contacts.x, contacts.y, contacts.angle)), strict=True)
-        for i, (x, y, angle) in zip(placed.tolist(), places, strict=True):
-            # The contact as a point of a circle of radius 1 on its left, passed counter-clockwise.
-            nx, ny = sin(angle), -cos(angle)
-            sx, sy = (start.x - x) / r + nx, (start.y - y) / r + ny
-            scene = WindScene(sx, sy, *heading, 1.0, self._wx, self._wy, rounding(sx, sy, 1.0) / 3.0)
-            phase = phase_of(nx, ny, -1, self._wx, self._wy)
-            for word in SIX:
-                path = first_path_of(word, phase, -1, scene, inf)
-                if path.time < inf:
-                    rows.append(Word(i, controls(path.word), (path.t1, path.t2, path.t3)))
-        return Words.joined([Words.of(rows, r), _onto_circle(self._entries(start), contacts, r)])
+        r, placed = self._radius_m, (~contacts.anywhere).nonzero()[0]
+        to, word = np.repeat(placed, len(SIX)), np.tile(SIX, placed.size)
+        x, y, heading = (start.x - contacts.x[to]) / r, (start.y - contacts.y[to]) / r, start.heading
+        pieces = _paths_to_poses(word, x, y, cos(heading), sin(heading), contacts.angle[to], self._wx, self._wy)
+        exists = (pieces[0] < inf).nonzero()[0]
+        length = np.stack(pieces, axis=-1)[exists] * r
+        control = np.tile(SIX_CONTROLS, (placed.size, 1))[exists]
+        found = Words(to[exists], control, length, np.full(length.shape, r))
+        return Words.joined([found, _onto_circle(self._entries(start), contacts, r)])
 
     def _entries(self, start: Pose2) -> list[Entry]:
         """The candidates from a pose."""
@@ -213,12 +225,24 @@ class SteadyWind:
         problem = WindProblem(*place, *heading, self._problem.radius, SIDES[orbit.turn], self._wx, self._wy, 0.0)
         return [wind_search.entry_of(found) for found in solver.ranked(problem) if found.status == Status.OK]
 
+    def fastest_entries(self, poses: Pose2) -> Words:
+        """The fastest entry from each of poses as arrays, which leads to the side of the circle: 1 or -1."""
+        orbit, r = self._problem.orbit, self._radius_m
+        x, y = (poses.x - orbit.east_m) / r, (poses.y - orbit.north_m) / r
+        c, s = np.cos(poses.heading), np.sin(poses.heading)
+        return _words_of(_optima_in_wind(x, y, c, s, self._problem.radius, SIDES[orbit.turn], self._wx, self._wy), r)
+
+    def flown(self, start: Pose2, control: Any, length: Any) -> Pose2:
+        """The poses after a length of one control each, metres, from poses as arrays."""
+        x, y = _flown(start.x, start.y, start.heading, control, length, self._radius_m, self._wx, self._wy)
+        return Pose2(x, y, start.heading + control * length / self._radius_m)
+
     def are_clear(self, start: Pose2, words: Words) -> NDArray[bool_]:
         """By chords of trochoids, each no farther than `CHORD_ERROR_M` from its part."""
         n, r = words.to.size, self._radius_m
         clear = np.ones(n, bool)
         wind_x, wind_y = self._wx, self._wy
-        x, y, heading = (np.full(n, value) for value in start)
+        x, y, heading = (np.zeros(n) + value for value in start)
         step = (8.0 * CHORD_ERROR_M * r) ** 0.5
         for k in range(3):
             u, length = words.control[:, k], words.length[:, k]
@@ -235,6 +259,33 @@ class SteadyWind:
             x, y = _flown(x, y, heading, u, length, r, wind_x, wind_y)
             heading = heading + u * length / r
         return clear
+
+
+def _optima(x: Any, y: Any, radius: float, side: int) -> tuple[Any, ...]:
+    """The word, the three durations and the side of the fastest entries from reduced states; infinite where none is."""
+    _, word, durations, status, held, _ = ufuncs.solve(x, y, radius, float(side), 0.0, np.zeros(3))
+    return (word, *np.where(status == 0, durations.T, inf), held)
+
+
+def _optima_in_wind(*numbers: Any) -> tuple[Any, ...]:
+    """As `_optima`, of the numbers of problems in wind."""
+    _, word, durations, status, held, _, _ = ufuncs.solve_in_wind(*numbers, 0.0, np.zeros(3))
+    return (word, *np.where(status == 0, durations.T, inf), held)
+
+
+def _words_of(optima: tuple[Any, ...], radius_m: float) -> Words:
+    """Entries as words, each to its side."""
+    word, t1, t2, t3, side = optima
+    known = {code: [float(u) if u != ABSENT else 0.0 for u in controls(code)] for code in set(word.tolist())}
+    control = np.array([known[code] for code in word.tolist()])
+    length = np.stack([t1, t2, t3], axis=-1) * radius_m
+    return Words(side, control, length, np.full(length.shape, radius_m))
+
+
+def _paths_to_poses(word: Any, *numbers: Any) -> tuple[NDArray[float64], ...]:
+    """The durations of the three pieces, as `ufuncs.path_to_pose` has them."""
+    found: tuple[NDArray[float64], ...] = ufuncs.path_to_pose(word, *numbers)
+    return found
 
 
 # What a search needs to know of paths.

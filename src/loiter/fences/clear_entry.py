@@ -23,6 +23,7 @@ from loiter.fences.contacts import (
 )
 from loiter.fences.entry_bound import least_length
 from loiter.fences.fence import Fence, FenceCheck, checked_margin_m, zones_on_circle
+from loiter.fences.lattice import PathSearch
 from loiter.fences.model import clear_points
 from loiter.fences.taut import least_length_m
 from loiter.planning.compass import heading_vector
@@ -50,6 +51,15 @@ TANGENT_STEPS = 5
 # In wind the second search has contacts farther from the zones too, by these shares of a turn radius: over the ground
 # turns are tighter in some directions than in others, so that a path bends about a zone without touching it.
 WIDER = (0.2, 0.5)
+
+# Where neither finds one as short, lattices of steps of so many turn radii are searched.
+LATTICE_STEPS = (0.25, 0.12, 0.06)
+
+# A path of a lattice that is shorter by less, metres, is the same.
+LEAST_GAIN_M = 0.01
+
+# Paths of a lattice of more pieces than this are no improvement: they zigzag, and the law follows no more pieces.
+MOST_PIECES = 12
 
 # Where no entry is found in wind, the bound is at most this later than the fastest one, turn radii over airspeed.
 LONGER_IN_WIND = 40.0
@@ -95,12 +105,13 @@ class ClearEntry(NamedTuple):
 
     @property
     def _refusal(self) -> str:
-        zones = " and ".join(map(repr, self.blocking))
+        zones, block = " and ".join(map(repr, self.blocking)), "blocks" if len(self.blocking) == 1 else "block"
         if self.least_s == inf:
-            return f"No entry is clear: {zones} blocks the circle itself, or every way to it."
+            return f"No entry is clear: {zones} {block} the circle itself, or every way to it."
+        candidates = "the candidate" if self.tried == 1 else f"the {self.tried} candidates"
         if self.searched:
-            return f"No entry found: {zones} blocks here."
-        return f"No entry found: of the {self.tried} candidates none is clear, {zones} blocks here."
+            return f"No entry found, though there may be one: {zones} {block} {candidates}."
+        return f"No entry found: {zones} {block} {candidates}, and no other path was searched."
 
 
 def first_clear(fence: Fence, maneuvers: Sequence[Maneuver], margin_m: float | None = None) -> ClearEntry:
@@ -210,12 +221,29 @@ class _Search:
         best = known
         for search in PASSES:
             for maneuver in self._maneuvers(search, inf if best is None else best.length_m):
-                faster = best is None or maneuver.duration_s < best.duration_s
-                if faster and self._fence.check(maneuver, self._margin_m).clear:
-                    best = maneuver
+                best = self._faster(best, maneuver)
             if best is not None and best.length_m < enough_m:
-                break
-        return best
+                return best
+        return self._without_contacts(best)
+
+    def _without_contacts(self, best: Maneuver | None) -> Maneuver | None:
+        """The fastest of the clear maneuvers from lattices, and of the one that is known, if any."""
+        r = self._problem.aircraft.turn_radius_m
+        search, path = PathSearch(self._air, self._start, r), None
+        most_m = inf if best is None else best.length_m + SLACK * r
+        for step in LATTICE_STEPS:
+            path = search.over_lattice(step, most_m if path is None else path.length_m) or path
+        if path is None or (best is not None and len(path.pieces) > MOST_PIECES):
+            return best
+        shorter = search.shortened(path) if len(path.pieces) <= MOST_PIECES else path
+        if best is not None and shorter.length_m > best.length_m - LEAST_GAIN_M:
+            return best
+        return self._faster(best, self._maneuver(shorter.pieces, shorter.way))
+
+    def _faster(self, best: Maneuver | None, maneuver: Maneuver) -> Maneuver | None:
+        """A maneuver where it is faster than the best one, if any, and clear; otherwise the best one."""
+        faster = best is None or maneuver.duration_s < best.duration_s
+        return maneuver if faster and self._fence.check(maneuver, self._margin_m).clear else best
 
     def _maneuvers(self, search: int, most_m: float) -> Iterator[Maneuver]:
         """Those of the best chains of the first or the second search.
@@ -228,7 +256,8 @@ class _Search:
         rows = [*rows_on(curves, r, refined), *rows_without_straight(curves, *self._start, r)]
         rows += rows_on_tangents(curves, *self._start, r)
         for chain in self._chains(placed(self._curves, rows), most_m + SLACK * r, SLACK * r, MOST_CHAINS):
-            yield self._maneuver(self._moved(chain, refined))
+            moved = self._moved(chain, refined)
+            yield self._maneuver(_merged(moved), int(moved.contacts.way[-1]))
 
     def _chains(self, contacts: Contacts, most_m: float, slack_m: float, most: int) -> list[Chain]:
         clear = clear_points(self._fence, contacts.x, contacts.y, self._margin_m)
@@ -273,15 +302,15 @@ class _Search:
         moves = [m * width for m in (-2, -1, 0, 1, 2)]
         yield from ((i, beside(curve, share, move), way) for move in moves)
 
-    def _maneuver(self, chain: Chain) -> Maneuver:
-        """A chain as a maneuver."""
+    def _maneuver(self, pieces: Sequence[Piece], way: int) -> Maneuver:
+        """Pieces as a maneuver that joins in a way."""
         problem = self._problem
         segments: list[Segment] = []
         here, now = problem.pose, 0.0
-        for control, length_m, radius_m in _merged(chain):
+        for control, length_m, radius_m in pieces:
             segments.append(segment(here, now, LETTERS[control], length_m, problem.aircraft, problem.wind, radius_m))
             here, now = segments[-1].end, now + segments[-1].duration_s
-        turn = Turn.CCW if chain.contacts.way[-1] > 0 else Turn.CW
+        turn = Turn.CCW if way > 0 else Turn.CW
         miss_m = abs(problem.orbit.distance_m(here) - problem.orbit.radius_m)
         return Maneuver(problem.pose, problem.orbit, problem.aircraft, turn, tuple(segments), miss_m, problem.wind)
 

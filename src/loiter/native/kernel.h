@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: ff79ccc2e3da54bd7cef9124e590ac5ae358c14efcbaa01886c293ef7428b0b7
+ * SHA-256 of the source: 4d064bac20ceb565dd7db1cfecea4e30148c38bc275871d2feaf6ca04bb9348a
  */
 #ifndef LOITER_KERNEL_H
 #define LOITER_KERNEL_H
@@ -3805,6 +3805,17 @@ static inline WindEntry first_in_slot(WindProblem problem, real phase) {
         return no_entry(code(STATUS_NOT_CONVERGED));
     }
     return arrival_of(found, scene);
+}
+
+/* The first path of a set of words to a pose at rest over the ground, passed in the direction `track`, radians.
+ *
+ * (x, y) is the start from the pose, and (c, s) its heading.
+ */
+static inline Path path_to_pose(integer words, real x, real y, real c, real s, real track, real wx, real wy) {
+    /* The pose as a point of a circle of radius 1 on its left, passed counter-clockwise. */
+    const real nx = sin(track), ny = -cos(track);
+    const WindScene scene = (WindScene){x + nx, y + ny, c, s, 1.0, wx, wy, rounding(x + nx, y + ny, 1.0) / 3.0};
+    return first_path_of(words, phase_of(nx, ny, -1, wx, wy), -1, scene, INFINITY);
 }
 
 #endif

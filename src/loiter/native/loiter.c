@@ -74,3 +74,11 @@ int loiter_local_minima(const loiter_wind_problem *problem, loiter_wind_entry en
     }
     return count;
 }
+
+void loiter_path_to_pose(int word, double x, double y, double c, double s, double track, double wx, double wy,
+                         double durations[3]) {
+    const Path path = path_to_pose(set_of(word), x, y, c, s, track, wx, wy);
+    durations[0] = path.time < INFINITY ? path.t1 : INFINITY;
+    durations[1] = path.t2;
+    durations[2] = path.t3;
+}

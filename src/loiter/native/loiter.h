@@ -70,6 +70,12 @@ int loiter_local_minima(const loiter_wind_problem *problem, loiter_wind_entry en
  * The side of the problem is 1 or -1. */
 loiter_wind_entry loiter_first_in_slot(const loiter_wind_problem *problem, double phase);
 
+/* The durations of the first path of a word of three pieces, by its code, to a pose at rest over the ground, which is
+ * passed in the direction `track`, radians: from (x, y) relative to the pose with the heading (c, s). The first is
+ * infinite where there is no path. */
+void loiter_path_to_pose(int word, double x, double y, double c, double s, double track, double wx, double wy,
+                         double durations[3]);
+
 #ifdef __cplusplus
 }
 #endif

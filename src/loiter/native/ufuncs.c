@@ -19,6 +19,7 @@ static const char TYPES[][18] = {
     {D, D, D, D, D, D, D, D, D, D},
     {D, D, D, D, D, D, D, D, D, D, D, B, D, B, B, D, D},
     {D, D, D, D, D, D, D},
+    {D, D, D, D, D, D, D, D, D, D, D},
 };
 
 static const struct {
@@ -33,6 +34,7 @@ static const struct {
     {"min_time_in_wind", 9, 1, NULL},
     {"solve_in_wind", 10, 7, "(),(),(),(),(),(),(),(),(),(n)->(),(),(n),(),(),(),()"},
     {"gradient", 4, 3, NULL},
+    {"path_to_pose", 8, 3, NULL},
 };
 
 enum { COUNT = sizeof UFUNCS / sizeof *UFUNCS };
@@ -53,6 +55,7 @@ static const char *choose_loops(void) {
     loops[4] = (PyUFuncGenericFunction)loiter_min_time_in_wind;
     loops[5] = (PyUFuncGenericFunction)loiter_solve_in_wind;
     loops[6] = (PyUFuncGenericFunction)loiter_gradients;
+    loops[7] = (PyUFuncGenericFunction)loiter_paths_to_poses;
 #ifdef LOITER_X86_LEVELS
     __builtin_cpu_init();
     const int has_v3 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");

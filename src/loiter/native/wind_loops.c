@@ -83,3 +83,19 @@ void loiter_solve_in_wind(char **args, const ptrdiff_t *dimensions, const ptrdif
     }
     feclearexcept(FE_ALL_EXCEPT);
 }
+
+/* Operands: the word, x, y, cosine, sine, track and wind, and then the three durations. */
+void loiter_paths_to_poses(char **args, const ptrdiff_t *dimensions, const ptrdiff_t *steps, void *data) {
+    (void)data;
+    for (ptrdiff_t i = 0; i < dimensions[0]; i++) {
+        double in[8], durations[3];
+        for (int k = 0; k < 8; k++) {
+            in[k] = number_at(args, steps, k, i);
+        }
+        loiter_path_to_pose((int)in[0], in[1], in[2], in[3], in[4], in[5], in[6], in[7], durations);
+        for (int k = 0; k < 3; k++) {
+            put_number(args, steps, 8 + k, i, durations[k]);
+        }
+    }
+    feclearexcept(FE_ALL_EXCEPT);
+}

@@ -4,6 +4,6 @@
 
 #include "loops.h"
 
-extern loiter_loop loiter_min_time_in_wind, loiter_solve_in_wind, loiter_gradients;
+extern loiter_loop loiter_min_time_in_wind, loiter_solve_in_wind, loiter_gradients, loiter_paths_to_poses;
 
 #endif

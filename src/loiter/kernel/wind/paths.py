@@ -1,9 +1,10 @@
 """The first path to a point of joining in wind, the best of the six words, and the slope of its time."""
 
-from math import inf
+from math import cos, inf, sin
 from typing import NamedTuple
 
-from loiter.kernel.wind.hold import hold_pose, hold_rate
+from loiter.kernel.rounding import rounding
+from loiter.kernel.wind.hold import hold_pose, hold_rate, phase_of
 from loiter.kernel.wind.moving_target import NO_PATH, Ends, Path, interception, lrl_rlr, lsl_rsr, lsr_rsl
 from loiter.kernel.words import ALL_WORDS, controls, encode, set_of
 
@@ -57,6 +58,17 @@ def first_path_of(words: int, phase: float, side: int, scene: WindScene, until: 
                 path = lrl_rlr(u, dx - u * (s - s0), dy + u * (c - c0), ends, min(until, best.time))
                 best = faster_path(best, path, until)
     return best
+
+
+def path_to_pose(words: int, x: float, y: float, c: float, s: float, track: float, wx: float, wy: float) -> Path:
+    """The first path of a set of words to a pose at rest over the ground, passed in the direction `track`, radians.
+
+    (x, y) is the start from the pose, and (c, s) its heading.
+    """
+    # The pose as a point of a circle of radius 1 on its left, passed counter-clockwise.
+    nx, ny = sin(track), -cos(track)
+    scene = WindScene(x + nx, y + ny, c, s, 1.0, wx, wy, rounding(x + nx, y + ny, 1.0) / 3.0)
+    return first_path_of(words, phase_of(nx, ny, -1, wx, wy), -1, scene, inf)
 
 
 def faster_path(a: Path, b: Path, until: float) -> Path:

@@ -9,8 +9,11 @@ import {
   encode as encoded,
   fly,
   least_time,
+  optimum,
+  path_to_pose as first_path_to_pose,
   reduce as reduced,
   rounded_radius,
+  set_of,
   side_or_near,
   synthesis_status_of as status_of,
   wind_search_fastest,
@@ -54,6 +57,27 @@ export const min_time_in_wind = (x, y, angle, radius, turn, wind_x, wind_y) =>
     const { t1, t2, t3 } = wind_search_fastest(problem);
     return t1 + t2 + t3;
   })(x, y, angle);
+
+/** `loiter.fences.airs._optima`: word, three durations and side of the fastest entries from arrays of reduced states. */
+const infinite = [0, Infinity, Infinity, Infinity, 0];
+export const optima = elementwise(function (x, y, radius, side) {
+  if (status_of(x, y, radius, 0) !== Status.OK) return infinite;
+  const { word, t1, t2, t3, side: held } = optimum(x, y, rounded_radius(radius), side, 0);
+  return [word, t1, t2, t3, held];
+});
+
+/** `loiter.fences.airs._optima_in_wind`. */
+export const optima_in_wind = elementwise(function (x, y, c, s, R, side, wx, wy) {
+  const { status, word, t1, t2, t3, side: held } = wind_search_fastest({ x, y, c, s, R, side, wx, wy, tolerance: 0 });
+  return status === Status.OK ? [word, t1, t2, t3, held] : infinite;
+});
+
+/** `loiter.compiled.ufuncs.path_to_pose`, of arrays of words and poses. */
+const durations = elementwise(function (word, ...numbers) {
+  const { time, t1, t2, t3 } = first_path_to_pose(set_of(word), ...numbers);
+  return [time < Infinity ? t1 : Infinity, t2, t3];
+});
+export const path_to_pose = (words, ...numbers) => (words.length ? durations(words, ...numbers) : [words, words, words]);
 
 /** `loiter.fences.taut.least_length_m`: a bound that needs shapely, and is none here. */
 export const no_length = () => 0;

@@ -4,7 +4,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 73d07c4306235c3b34de19b2e5e6e7b5ba379d33a8815a54fb3e6fb7ac8daf5f
+ * SHA-256 of the source: 40d43d1e635c895306f48688622cd2eeab5d71066ef4a84f3d1919c6cf348fb2
  */
 
 // What Python has and JavaScript has not: the first of two that tie, and quotients rounded down. Integers are doubles
@@ -5037,4 +5037,19 @@ export function first_in_slot(problem, phase) {
         return no_entry(code(Status.NOT_CONVERGED));
     }
     return arrival_of(found, scene);
+}
+
+/**
+ * The first path of a set of words to a pose at rest over the ground, passed in the direction `track`, radians.
+ *
+ * (x, y) is the start from the pose, and (c, s) its heading.
+ *
+ * @type {(words: number, x: number, y: number, c: number, s: number, track: number, wx: number, wy: number) => Path}
+ */
+export function path_to_pose(words, x, y, c, s, track, wx, wy) {
+    // The pose as a point of a circle of radius 1 on its left, passed counter-clockwise.
+    const nx = sin(track), ny = -cos(track);
+    const scene = { x: x + nx, y: y + ny, c, s, R: 1.0, wx, wy, arc_tolerance: rounding(x + nx, y + ny, 1.0) / 3.0
+            };
+    return first_path_of(words, phase_of(nx, ny, -1, wx, wy), -1, scene, Infinity);
 }

@@ -5488,24 +5488,45 @@ self._air = clear_entry__air(fence, problem, margin_m, self._curves);
 self._start = Pose2(problem.pose.east_m, problem.pose.north_m, math.atan2(s, c));
 }
 fastest(known, enough_m) {
-let best, faster, maneuver, search;
+let best, maneuver, search;
 const self = this;
 best = known;
 for (search of iter(clear_entry_PASSES)) {
 for (maneuver of iter(self._maneuvers(search, ((best == null) ? math.inf : best.length_m)))) {
-faster = ((best == null) || lt(maneuver.duration_s, best.duration_s));
-if ((truth(faster) && truth(self._fence.check(maneuver, self._margin_m).clear))) {
-best = maneuver;
-}
+best = self._faster(best, maneuver);
 }
 if (((best != null) && lt(best.length_m, enough_m))) {
-break;
-}
-}
 return best;
 }
+}
+return self._without_contacts(best);
+}
+_without_contacts(best) {
+let most_m, path, r, search, shorter, step;
+const self = this;
+r = self._problem.aircraft.turn_radius_m;
+[search, path] = iter([PathSearch(self._air, self._start, r), null]);
+most_m = ((best == null) ? math.inf : add(best.length_m, mul(SLACK, r)));
+for (step of iter(LATTICE_STEPS)) {
+path = or(search.over_lattice(step, ((path == null) ? most_m : path.length_m)), () => path);
+}
+if (((path == null) || ((best != null) && gt(len(path.pieces), MOST_PIECES)))) {
+return best;
+}
+shorter = (le(len(path.pieces), MOST_PIECES) ? search.shortened(path) : path);
+if (((best != null) && gt(shorter.length_m, sub(best.length_m, LEAST_GAIN_M)))) {
+return best;
+}
+return self._faster(best, self._maneuver(shorter.pieces, shorter.way));
+}
+_faster(best, maneuver) {
+let faster;
+const self = this;
+faster = ((best == null) || lt(maneuver.duration_s, best.duration_s));
+return ((truth(faster) && truth(self._fence.check(maneuver, self._margin_m).clear)) ? maneuver : best);
+}
 *_maneuvers(search, most_m) {
-let chain, curves, r, refined, rows_;
+let chain, curves, moved, r, refined, rows_;
 const self = this;
 r = self._problem.aircraft.turn_radius_m;
 refined = (truth(self._problem.still) ? search : 1);
@@ -5513,7 +5534,8 @@ curves = (gt(search, 1) ? self._curves : sliced(self._curves, null, self._touchi
 rows_ = [...iter(rows_on(curves, r, refined)), ...iter(rows_without_straight(curves, ...iter(self._start), r))];
 rows_ = add(rows_, rows_on_tangents(curves, ...iter(self._start), r));
 for (chain of iter(self._chains(placed(self._curves, rows_), add(most_m, mul(SLACK, r)), mul(SLACK, r), MOST_CHAINS))) {
-yield self._maneuver(self._moved(chain, refined));
+moved = self._moved(chain, refined);
+yield self._maneuver(_merged(moved), int(item(moved.contacts.way, -1)));
 }
 }
 _chains(contacts, most_m, slack_m, most) {
@@ -5568,17 +5590,17 @@ width = div(step, curve.steps(self._problem.aircraft.turn_radius_m, refined));
 moves = list(iter([-2, -1, 0, 1, 2])).map((m) => mul(m, width));
 yield* iter(list(iter(moves)).map((move) => [i, beside(curve, share, move), way]));
 }
-_maneuver(chain) {
+_maneuver(pieces, way) {
 let control, here, length_m, miss_m, now, problem, radius_m, segments, turn;
 const self = this;
 problem = self._problem;
 segments = [];
 [here, now] = iter([problem.pose, 0.0]);
-for ([control, length_m, radius_m] of rows(_merged(chain))) {
+for ([control, length_m, radius_m] of rows(pieces)) {
 append_(segments, segment(here, now, item(clear_entry_LETTERS, control), length_m, problem.aircraft, problem.wind, radius_m));
 [here, now] = iter([item(segments, -1).end, add(now, item(segments, -1).duration_s)]);
 }
-turn = (gt(item(chain.contacts.way, -1), 0) ? Turn.CCW : Turn.CW);
+turn = (gt(way, 0) ? Turn.CCW : Turn.CW);
 miss_m = abs(sub(problem.orbit.distance_m(here), problem.orbit.radius_m));
 return Maneuver(problem.pose, problem.orbit, problem.aircraft, turn, tuple(segments), miss_m, problem.wind);
 }
@@ -6039,16 +6061,17 @@ what = (truth(self.searched) ? "The fastest clear entry found" : "The first cand
 return `${str(what)} ${str(later)}: ${str(self.maneuver)}`;
 }
 get _refusal() {
-let zones;
+let block, candidates, zones;
 const self = this;
-zones = join_(" and ", map(repr, self.blocking));
+[zones, block] = iter([join_(" and ", map(repr, self.blocking)), (eq(len(self.blocking), 1) ? "blocks" : "block")]);
 if (eq(self.least_s, math.inf)) {
-return `No entry is clear: ${str(zones)} blocks the circle itself, or every way to it.`;
+return `No entry is clear: ${str(zones)} ${str(block)} the circle itself, or every way to it.`;
 }
+candidates = (eq(self.tried, 1) ? "the candidate" : `the ${str(self.tried)} candidates`);
 if (truth(self.searched)) {
-return `No entry found: ${str(zones)} blocks here.`;
+return `No entry found, though there may be one: ${str(zones)} ${str(block)} ${str(candidates)}.`;
 }
-return `No entry found: of the ${str(self.tried)} candidates none is clear, ${str(zones)} blocks here.`;
+return `No entry found: ${str(zones)} ${str(block)} ${str(candidates)}, and no other path was searched.`;
 }
 }, ["maneuver", "check", "later_s", "tried", "blocking", "least_s", "searched"], 'ClearEntry');
 
@@ -6073,6 +6096,102 @@ this.heading = heading;
 
 }
 }, ["x", "y", "heading"], 'Pose2');
+
+const PathSearch = struct(class extends Values {
+constructor(air, start, radius_m) {
+super();
+const self = this;
+[self._air, self._start, self._r] = iter([air, start, radius_m]);
+}
+least(poses) {
+let contacts, none, unknown;
+const self = this;
+[none, unknown] = iter([np.zeros(poses.x.size, bool), poses.x]);
+contacts = Contacts(unknown, unknown, unknown, poses.x, poses.y, unknown, none, none);
+return self._air.least_lengths(contacts, poses.heading);
+}
+endings(poses, flown) {
+let clear, good, length, words;
+const self = this;
+words = self._air.fastest_entries(poses);
+length = add(flown, words.length.sum({ axis: 1 }));
+good = item(np.isfinite(length).nonzero(), 0);
+clear = np.zeros(length.size, bool);
+set_item(clear, good, self._air.are_clear(_taken(poses, good), words.take(good)));
+return [words, np.where(clear, length, math.inf)];
+}
+one_piece(start, control, length) {
+let words, zero;
+const self = this;
+zero = np.zeros(length.size);
+words = Words(np.arange(length.size), np.stack([add(zero, control), zero, zero], { axis: -1 }), np.stack([length, zero, zero], { axis: -1 }), np.full([length.size, 3], self._r));
+return [self._air.are_clear(start, words), self._air.flown(start, item(words.control, [slice(null, null), 0]), length)];
+}
+over_lattice(step, most_m) {
+const self = this;
+return _Lattice(self, self._start, self._r, step).path(most_m);
+}
+shortened(path) {
+let _, before, changed, free, shorter;
+const self = this;
+shorter = path;
+for (_ of iter(range(MOST_ROUNDS))) {
+before = shorter;
+for (free of iter(range(max(1, sub(len(before.pieces), MOST_ENTRY)), len(before.pieces)))) {
+changed = self._changed(before, free);
+shorter = (lt(changed.length_m, shorter.length_m) ? changed : shorter);
+}
+if (lt(sub(before.length_m, shorter.length_m), mul(LAST_CHANGE, self._r))) {
+break;
+}
+}
+return shorter;
+}
+_changed(path, free) {
+let best, change, controls, found, lengths, row, sweep, tried;
+const self = this;
+lengths = np.array(list(iter(sliced(path.pieces, null, free, null))).map((piece) => piece.length_m));
+controls = list(iter(sliced(path.pieces, null, free, null))).map((piece) => piece.control);
+[sweep, change, best] = iter([0, mul(FIRST_CHANGE, self._r), path]);
+while ((gt(change, mul(LAST_CHANGE, self._r)) && lt(sweep, MOST_SWEEPS))) {
+tried = np.maximum(add(lengths, mul(change, _moves(free, sweep))), 0.0);
+sweep = add(sweep, 1);
+found = self._shortest(controls, tried, sub(best.length_m, mul(ENOUGH, change)));
+if ((found == null)) {
+change = mul(change, 0.5);
+} else {
+[best, row] = iter(found);
+lengths = item(tried, row);
+}
+}
+return best;
+}
+_shortest(controls, lengths, most_m) {
+let _, control, first, good, i, k, length, r, row, starts, words, zero;
+const self = this;
+[zero, r] = iter([np.zeros(item(lengths.shape, 0)), self._r]);
+starts = [_poses(...iter(list(iter(self._start)).map((value) => add(zero, value))))];
+for ([k, control] of rows(enumerate(controls))) {
+append_(starts, self._air.flown(item(starts, -1), add(zero, control), item(lengths, [slice(null, null), k])));
+}
+i = item(lt(add(lengths.sum({ axis: 1 }), self.least(item(starts, -1))), most_m).nonzero(), 0);
+for ([k, control] of rows(enumerate(controls))) {
+[good, _] = iter(self.one_piece(_taken(item(starts, k), i), control, item(lengths, [i, k])));
+i = item(i, good);
+}
+if (!truth(i.size)) {
+return null;
+}
+[words, length] = iter(self.endings(_taken(item(starts, -1), i), item(lengths, i).sum({ axis: 1 })));
+k = int(length.argmin());
+if (ge(item(length, k), most_m)) {
+return null;
+}
+row = int(item(i, k));
+first = list(iter(zip(controls, tolist_(item(lengths, row))))).map((one) => iter(one)).map(([u, length]) => Piece(u, float(length), r));
+return [path_with(first, words, k, float(item(length, k))), row];
+}
+}, []);
 
 function rows_on(curves, turn_radius_m, refined) {
 let curve, i, n, rows_, shares;
@@ -6135,6 +6254,22 @@ normal = add(a, mul(shares, width));
 places = [add(add(x, mul(radius, np.cos(normal))), mul(shares, dx)), add(add(y, mul(radius, np.sin(normal))), mul(shares, dy))];
 [joined, anywhere] = iter(list(iter(["joined", "anywhere"])).map((name) => item(np.array(list(iter(curves)).map((curve) => curve[name])), indices)));
 return Contacts(indices, shares, ways, ...iter(places), add(normal, mul(ways, mul(0.5, math.pi))), joined, anywhere);
+}
+
+function _merged(chain) {
+let merged, piece;
+merged = [];
+for (piece of iter(list(iter(chain.paths)).flatMap((path) => list(iter(path)).map((piece) => piece)))) {
+if (lt(piece.length_m, NO_PIECE_M)) {
+continue;
+}
+if ((truth(merged) && eq([item(merged, -1).control, item(merged, -1).radius_m], [piece.control, piece.radius_m]))) {
+append_(merged, replace(piece, { length_m: add(piece.length_m, pop_(merged).length_m) }));
+} else {
+append_(merged, piece);
+}
+}
+return merged;
 }
 
 function clear_points(fence, east_m, north_m, margin_m) {
@@ -6265,22 +6400,6 @@ return div(mul(piece.control, piece.length_m), piece.radius_m);
 
 function beside(curve, share, by) {
 return (truth(curve.closed) ? mod(add(share, by), 1.0) : min(max(add(share, by), 0.0), 1.0));
-}
-
-function _merged(chain) {
-let merged, piece;
-merged = [];
-for (piece of iter(list(iter(chain.paths)).flatMap((path) => list(iter(path)).map((piece) => piece)))) {
-if (lt(piece.length_m, NO_PIECE_M)) {
-continue;
-}
-if ((truth(merged) && eq([item(merged, -1).control, item(merged, -1).radius_m], [piece.control, piece.radius_m]))) {
-append_(merged, replace(piece, { length_m: add(piece.length_m, pop_(merged).length_m) }));
-} else {
-append_(merged, piece);
-}
-}
-return merged;
 }
 
 function crossing_share(ax, ay, bx, by, edges) {
@@ -6493,11 +6612,25 @@ zero = np.zeros_like(turned);
 length = np.stack([mul(turned, curve.radius), zero, zero], { axis: -1 });
 return Words(others, np.full(length.shape, float(way)), length, np.full(length.shape, curve.radius));
 }
+fastest_entries(poses) {
+let dx, dy, orbit, r, x, y;
+const self = this;
+[orbit, r] = iter([self._problem.orbit, self._radius_m]);
+[dx, dy] = iter([div(sub(poses.x, orbit.east_m), r), div(sub(poses.y, orbit.north_m), r)]);
+[x, y] = iter(arrays.reduce_states(dx, dy, np.cos(poses.heading), np.sin(poses.heading)));
+return _words_of(arrays.optima(x, y, max(self._problem.radius, 1.0), item(SIDES, orbit.turn)), r);
+}
+flown(start, control, length) {
+let x, y;
+const self = this;
+[x, y] = iter(airs__flown(start.x, start.y, start.heading, control, length, self._radius_m, 0.0, 0.0));
+return Pose2(x, y, add(start.heading, div(mul(control, length), self._radius_m)));
+}
 are_clear(start, words) {
 let angle, arcs, bent, c, clear, ends, heading, k, length, next_x, next_y, nx, ny, radius, s, straight, u, x, y;
 const self = this;
 clear = np.ones(words.to.size, bool);
-[x, y, heading] = iter(list(iter(start)).map((value) => np.full(words.to.size, value)));
+[x, y, heading] = iter(list(iter(start)).map((value) => add(np.zeros(words.to.size), value)));
 for (k of iter(range(3))) {
 [u, length, radius] = iter([item(words.control, [slice(null, null), k]), item(words.length, [slice(null, null), k]), item(words.radius, [slice(null, null), k])]);
 [c, s, angle] = iter([np.cos(heading), np.sin(heading), div(length, radius)]);
@@ -6544,25 +6677,17 @@ set_item(least, free, arrays.min_time_in_wind(item(dx, free), item(dy, free), it
 return mul(mul(np.where(np.isfinite(least), least, 0.0), r), sub(1.0, 1e-09));
 }
 words(start, at, contacts, headings) {
-let angle, heading, i, nx, ny, path, phase, placed, places, r, rows_, scene, sx, sy, word, x, y;
+let control, exists, found, heading, length, pieces, placed, r, to, word, x, y;
 const self = this;
-[r, rows_] = iter([self._radius_m, []]);
-heading = [math.cos(start.heading), math.sin(start.heading)];
-placed = item(invert(contacts.anywhere).nonzero(), 0);
-places = zip(...iter(list(iter([contacts.x, contacts.y, contacts.angle])).map((v) => tolist_(item(v, placed)))));
-for ([i, [x, y, angle]] of rows(zip(tolist_(placed), places))) {
-[nx, ny] = iter([math.sin(angle), neg(math.cos(angle))]);
-[sx, sy] = iter([add(div(sub(start.x, x), r), nx), add(div(sub(start.y, y), r), ny)]);
-scene = WindScene(sx, sy, ...iter(heading), 1.0, self._wx, self._wy, div(kernel.rounding(sx, sy, 1.0), 3.0));
-phase = kernel.phase_of(nx, ny, -1, self._wx, self._wy);
-for (word of iter(SIX)) {
-path = kernel.first_path_of(word, phase, -1, scene, math.inf);
-if (lt(path.time, math.inf)) {
-append_(rows_, Word(i, kernel.controls(path.word), [path.t1, path.t2, path.t3]));
-}
-}
-}
-return Words.joined([Words.of(rows_, r), _onto_circle(self._entries(start), contacts, r)]);
+[r, placed] = iter([self._radius_m, item(invert(contacts.anywhere).nonzero(), 0)]);
+[to, word] = iter([np.repeat(placed, len(SIX)), np.tile(SIX, placed.size)]);
+[x, y, heading] = iter([div(sub(start.x, item(contacts.x, to)), r), div(sub(start.y, item(contacts.y, to)), r), start.heading]);
+pieces = arrays.path_to_pose(word, x, y, math.cos(heading), math.sin(heading), item(contacts.angle, to), self._wx, self._wy);
+exists = item(lt(item(pieces, 0), math.inf).nonzero(), 0);
+length = mul(item(np.stack(pieces, { axis: -1 }), exists), r);
+control = item(np.tile(SIX_CONTROLS, [placed.size, 1]), exists);
+found = Words(item(to, exists), control, length, np.full(length.shape, r));
+return Words.joined([found, _onto_circle(self._entries(start), contacts, r)]);
 }
 _entries(start) {
 let heading, orbit, place, problem, r;
@@ -6573,13 +6698,27 @@ heading = [math.cos(start.heading), math.sin(start.heading)];
 problem = WindProblem(...iter(place), ...iter(heading), self._problem.radius, item(SIDES, orbit.turn), self._wx, self._wy, 0.0);
 return list(iter(kernel.wind_search_ranked(problem))).filter((found) => eq(found.status, kernel.Status.OK)).map((found) => kernel.entry_of(found));
 }
+fastest_entries(poses) {
+let c, orbit, r, s, x, y;
+const self = this;
+[orbit, r] = iter([self._problem.orbit, self._radius_m]);
+[x, y] = iter([div(sub(poses.x, orbit.east_m), r), div(sub(poses.y, orbit.north_m), r)]);
+[c, s] = iter([np.cos(poses.heading), np.sin(poses.heading)]);
+return _words_of(arrays.optima_in_wind(x, y, c, s, self._problem.radius, item(SIDES, orbit.turn), self._wx, self._wy), r);
+}
+flown(start, control, length) {
+let x, y;
+const self = this;
+[x, y] = iter(airs__flown(start.x, start.y, start.heading, control, length, self._radius_m, self._wx, self._wy));
+return Pose2(x, y, add(start.heading, div(mul(control, length), self._radius_m)));
+}
 are_clear(start, words) {
 let clear, counts, ends, flown, good, heading, i, j, k, length, n, r, step, tried, u, width, wind_x, wind_y, x, y;
 const self = this;
 [n, r] = iter([words.to.size, self._radius_m]);
 clear = np.ones(n, bool);
 [wind_x, wind_y] = iter([self._wx, self._wy]);
-[x, y, heading] = iter(list(iter(start)).map((value) => np.full(n, value)));
+[x, y, heading] = iter(list(iter(start)).map((value) => add(np.zeros(n), value)));
 step = pow(mul(mul(8.0, CHORD_ERROR_M), r), 0.5);
 for (k of iter(range(3))) {
 [u, length] = iter([item(words.control, [slice(null, null), k]), item(words.length, [slice(null, null), k])]);
@@ -6600,6 +6739,177 @@ heading = add(heading, div(mul(u, length), r));
 return clear;
 }
 }, []);
+
+const Contacts = struct(class extends Tuple {
+constructor(curve, share, way, x, y, angle, joined, anywhere) {
+super();
+this.curve = curve;
+this.share = share;
+this.way = way;
+this.x = x;
+this.y = y;
+this.angle = angle;
+this.joined = joined;
+this.anywhere = anywhere;
+
+}
+take(i) {
+const self = this;
+return Contacts(...iter(list(iter(self)).map((column) => item(column, i))));
+}
+}, ["curve", "share", "way", "x", "y", "angle", "joined", "anywhere"], 'Contacts');
+
+function _taken(poses, i) {
+return _poses(item(poses.x, i), item(poses.y, i), item(poses.heading, i));
+}
+
+const Words = struct(class extends Tuple {
+constructor(to, control, length, radius) {
+super();
+this.to = to;
+this.control = control;
+this.length = length;
+this.radius = radius;
+
+}
+take(i) {
+const self = this;
+return Words(...iter(list(iter(self)).map((column) => item(column, i))));
+}
+static of(cls, words, radius) {
+let control, length, to;
+to = np.array(list(iter(words)).map((word) => word.to), np.intp);
+[control, length] = iter(list(iter([list(iter(words)).map((word) => word.control), list(iter(words)).map((word) => word.length)])).map((rows_) => np.array(rows_, float).reshape(-1, 3)));
+return cls(to, control, mul(length, radius), np.full(length.shape, radius));
+}
+static joined(cls, several) {
+return cls(...iter(list(iter(zip(...iter(several)))).map((columns) => np.concatenate(columns))));
+}
+}, ["to", "control", "length", "radius"], 'Words');
+
+const _Lattice = struct(class extends Values {
+constructor(search, start, radius_m, step) {
+super();
+const self = this;
+[self._search, self._r, self._step] = iter([search, radius_m, step]);
+[self._poses, self._length, self._parent, self._control] = iter([[start], [0.0], [0], [0.0]]);
+self._bound = [0.0];
+self._seen = set(tolist_(self._cells(self._columns([0]))));
+}
+path(most_m) {
+let batch, best, first, heap, k, length, node, nodes, words;
+const self = this;
+[heap, best] = iter([[[0.0, 0]], null]);
+while ((truth(heap) && lt(item(item(heap, 0), 0), most_m) && lt(len(self._poses), lattice_MOST_POSES))) {
+batch = list(iter(range(min(lattice_BATCH, len(heap))))).map((_) => item(heappop(heap), 1));
+nodes = list(iter(batch)).filter((node) => truth(self._has_new_entry(node))).map((node) => node);
+if (truth(nodes)) {
+[words, length] = iter(self._search.endings(self._columns(nodes), np.array(list(iter(nodes)).map((k) => item(self._length, k)))));
+k = int(length.argmin());
+if (lt(item(length, k), most_m)) {
+most_m = float(item(length, k));
+best = path_with(self._pieces_to(item(nodes, k)), words, k, most_m);
+}
+}
+first = len(self._poses);
+self._expand(batch, most_m);
+for (node of iter(range(first, len(self._poses)))) {
+heappush(heap, [item(self._bound, node), node]);
+}
+}
+return best;
+}
+_has_new_entry(node) {
+const self = this;
+return ge(sub(item(self._bound, node), item(self._bound, item(self._parent, node))), mul(SAME_ENTRY, self._r));
+}
+_expand(batch, most_m) {
+let bound, cells, clear, control, flown, i, j, k, length, nodes, reached;
+const self = this;
+nodes = list(iter(batch)).flatMap((node) => list(iter(range(3))).map((_) => node));
+control = np.tile([1.0, 0.0, -1.0], len(batch));
+length = np.full(control.size, mul(self._step, self._r));
+[clear, reached] = iter(self._search.one_piece(self._columns(nodes), control, length));
+i = item(clear.nonzero(), 0);
+reached = _taken(reached, i);
+flown = add(item(np.array(list(iter(nodes)).map((node) => item(self._length, node))), i), item(length, i));
+[bound, cells] = iter([add(flown, self._search.least(reached)), tolist_(self._cells(reached))]);
+for ([k, j] of rows(enumerate(tolist_(i)))) {
+if ((lt(item(bound, k), most_m) && !has(item(cells, k), self._seen))) {
+self._seen.add(item(cells, k));
+append_(self._poses, Pose2(float(item(reached.x, k)), float(item(reached.y, k)), float(item(reached.heading, k))));
+append_(self._length, float(item(flown, k)));
+append_(self._parent, item(nodes, j));
+append_(self._control, float(item(control, j)));
+append_(self._bound, float(item(bound, k)));
+}
+}
+}
+_columns(nodes) {
+const self = this;
+return _poses(...iter(np.array(list(iter(nodes)).map((node) => item(self._poses, node))).T));
+}
+_cells(poses) {
+let heading, start, width, x, y;
+const self = this;
+[width, start] = iter([mul(CELL, self._step), item(self._poses, 0)]);
+x = np.floor(add(div(sub(poses.x, start.x), mul(width, self._r)), 0.5));
+y = np.floor(add(div(sub(poses.y, start.y), mul(width, self._r)), 0.5));
+heading = np.floor(add(div(np.mod(poses.heading, mul(2.0, math.pi)), width), 0.5));
+return add(mul(add(mul(heading, SPAN), x), SPAN), y);
+}
+_pieces_to(node) {
+let pieces;
+const self = this;
+pieces = [];
+while (ne(node, 0)) {
+append_(pieces, Piece(item(self._control, node), mul(self._step, self._r), self._r));
+node = item(self._parent, node);
+}
+return sliced(pieces, null, null, -1);
+}
+}, []);
+
+function _moves(free, sweep) {
+let both, dense, each, number, places;
+places = np.arange(free);
+each = list(iter(range(free))).flatMap((k) => list(iter([1.0, -1.0])).map((sign) => mul(sign, eq(places, k))));
+both = list(iter(enumerate(each))).map((one) => iter(one)).flatMap(([i, a]) => list(iter(sliced(each, sub(add(i, 2), mod(i, 2)), add(i, NEIGHBOURS), null))).map((b) => add(a, b)));
+number = add(mul(DENSE, sweep), np.arange(DENSE));
+dense = np.stack(list(iter(range(free))).map((k) => np.sin(mul(number, pow(add(k, 2.0), 0.5)))), { axis: -1 });
+return np.concatenate([np.stack([...iter(each), ...iter(both)]), dense]);
+}
+
+function _poses(x, y, heading) {
+return Pose2(x, y, heading);
+}
+
+const Piece = struct(class extends Tuple {
+constructor(control, length_m, radius_m) {
+super();
+this.control = control;
+this.length_m = length_m;
+this.radius_m = radius_m;
+
+}
+}, ["control", "length_m", "radius_m"], 'Piece');
+
+function path_with(first, words, k, length_m) {
+let columns, merged, piece;
+columns = [item(words.control, k), item(words.length, k), item(words.radius, k)];
+merged = [];
+for (piece of iter([...iter(first), ...iter(list(iter(zip(...iter(columns)))).map((piece) => Piece(...iter(map(float, piece)))))])) {
+if (lt(piece.length_m, NO_PIECE_M)) {
+continue;
+}
+if ((truth(merged) && eq(item(merged, -1).control, piece.control))) {
+set_item(merged, -1, replace(piece, { length_m: add(piece.length_m, item(merged, -1).length_m) }));
+} else {
+append_(merged, piece);
+}
+}
+return ClearPath(tuple(merged), length_m, neg(int(item(words.to, k))));
+}
 
 function* _turns_at(curves, u, cx, cy, distance, radius_m) {
 let curve, i, normal, offset, share, tx, ty, way;
@@ -6636,25 +6946,6 @@ append_(found, [(eq(u, way) ? normal : add(normal, math.pi)), share]);
 return found;
 }
 
-const Contacts = struct(class extends Tuple {
-constructor(curve, share, way, x, y, angle, joined, anywhere) {
-super();
-this.curve = curve;
-this.share = share;
-this.way = way;
-this.x = x;
-this.y = y;
-this.angle = angle;
-this.joined = joined;
-this.anywhere = anywhere;
-
-}
-take(i) {
-const self = this;
-return Contacts(...iter(list(iter(self)).map((column) => item(column, i))));
-}
-}, ["curve", "share", "way", "x", "y", "angle", "joined", "anywhere"], 'Contacts');
-
 function _touched(chain) {
 let touched;
 touched = zip(tolist_(chain.contacts.curve), tolist_(chain.contacts.way));
@@ -6678,16 +6969,6 @@ this.next = next;
 
 }
 }, ["node", "bound", "words", "clear", "next"], '_Expansion');
-
-const Piece = struct(class extends Tuple {
-constructor(control, length_m, radius_m) {
-super();
-this.control = control;
-this.length_m = length_m;
-this.radius_m = radius_m;
-
-}
-}, ["control", "length_m", "radius_m"], 'Piece');
 
 const Chain = struct(class extends Tuple {
 constructor(length_m, paths, contacts) {
@@ -6873,29 +7154,14 @@ append_(rows_, Word(item(ends, neg(entry.side)), control, [entry.t1, entry.t2, e
 return Words.of(rows_, radius_m);
 }
 
-const Words = struct(class extends Tuple {
-constructor(to, control, length, radius) {
-super();
-this.to = to;
-this.control = control;
-this.length = length;
-this.radius = radius;
-
+function _words_of(optima, radius_m) {
+let control, known, length, side, t1, t2, t3, word;
+[word, t1, t2, t3, side] = iter(optima);
+known = new Map(list(iter(set(tolist_(word)))).map((code) => [code, list(iter(kernel.controls(code))).map((u) => (ne(u, ABSENT) ? float(u) : 0.0))]));
+control = np.array(list(iter(tolist_(word))).map((code) => item(known, code)));
+length = mul(np.stack([t1, t2, t3], { axis: -1 }), radius_m);
+return Words(side, control, length, np.full(length.shape, radius_m));
 }
-take(i) {
-const self = this;
-return Words(...iter(list(iter(self)).map((column) => item(column, i))));
-}
-static of(cls, words, radius) {
-let control, length, to;
-to = np.array(list(iter(words)).map((word) => word.to), np.intp);
-[control, length] = iter(list(iter([list(iter(words)).map((word) => word.control), list(iter(words)).map((word) => word.length)])).map((rows_) => np.array(rows_, float).reshape(-1, 3)));
-return cls(to, control, mul(length, radius), np.full(length.shape, radius));
-}
-static joined(cls, several) {
-return cls(...iter(list(iter(zip(...iter(several)))).map((columns) => np.concatenate(columns))));
-}
-}, ["to", "control", "length", "radius"], 'Words');
 
 function airs__flown(x, y, heading, u, length, r, wx, wy) {
 let angle, chord, half;
@@ -6936,30 +7202,15 @@ clear = bit_and(clear, gt(mul(circles.sign, sub(outside, circles.radius)).min({ 
 return clear;
 }
 
-const WindScene = struct(class extends Tuple {
-constructor(x, y, c, s, R, wx, wy, arc_tolerance) {
+const ClearPath = struct(class extends Tuple {
+constructor(pieces, length_m, way) {
 super();
-this.x = x;
-this.y = y;
-this.c = c;
-this.s = s;
-this.R = R;
-this.wx = wx;
-this.wy = wy;
-this.arc_tolerance = arc_tolerance;
+this.pieces = pieces;
+this.length_m = length_m;
+this.way = way;
 
 }
-}, ["x", "y", "c", "s", "R", "wx", "wy", "arc_tolerance"], 'WindScene');
-
-const Word = struct(class extends Tuple {
-constructor(to, control, length) {
-super();
-this.to = to;
-this.control = control;
-this.length = length;
-
-}
-}, ["to", "control", "length"], 'Word');
+}, ["pieces", "length_m", "way"], 'ClearPath');
 
 function _shares_at(curve, offset, cx, cy, distance) {
 let a, apart, b, cosine, normals, root_2, shares, wx, wy;
@@ -7098,6 +7349,16 @@ half = np.arccos(mul(0.25, far));
 yield [[1.0, -1.0, 1.0], [first, add(math.pi, mul(2.0, half)), last]];
 }
 
+const Word = struct(class extends Tuple {
+constructor(to, control, length) {
+super();
+this.to = to;
+this.control = control;
+this.length = length;
+
+}
+}, ["to", "control", "length"], 'Word');
+
 function* stretches(ends) {
 let a, arcs, b, family, middle, one, other, spare, touching;
 for (family of iter(families(ends))) {
@@ -7164,6 +7425,21 @@ return path;
 }
 return replace(path, { curvature: max(-1.0, min(div(add(mul(k, t2), missing), middle), 1.0)), t2: middle });
 }
+
+const WindScene = struct(class extends Tuple {
+constructor(x, y, c, s, R, wx, wy, arc_tolerance) {
+super();
+this.x = x;
+this.y = y;
+this.c = c;
+this.s = s;
+this.R = R;
+this.wx = wx;
+this.wy = wy;
+this.arc_tolerance = arc_tolerance;
+
+}
+}, ["x", "y", "c", "s", "R", "wx", "wy", "arc_tolerance"], 'WindScene');
 
 const slots_Slot = struct(class extends Tuple {
 constructor(side, phase) {
@@ -7541,6 +7817,9 @@ const WIND_GAP_M = mul(2.1, CHORD_ERROR_M);
 const WIDER = [0.2, 0.5];
 const clear_entry_PASSES = [1, 2];
 const SLACK = 0.5;
+const LATTICE_STEPS = [0.25, 0.12, 0.06];
+const MOST_PIECES = 12;
+const LEAST_GAIN_M = 0.01;
 const MOST_CHAINS = 4;
 const MOST_POSES = 1500;
 const MOST_POSES_IN_WIND = 60;
@@ -7555,10 +7834,16 @@ const CLOSING = 8.0;
 const LONGER_PATHS = 49;
 const BETWEEN_JOINS = div(math.tau, 24.0);
 const SAME_TIME_S = 0.05;
+const MOST_ROUNDS = 3;
+const MOST_ENTRY = 3;
+const LAST_CHANGE = 0.0005;
+const FIRST_CHANGE = 0.1;
+const MOST_SWEEPS = 30;
+const ENOUGH = 0.02;
+const NO_PIECE_M = 1e-08;
 const UNKNOWN = -1;
 const CLEAR = 1;
 const BATCH = 48;
-const NO_PIECE_M = 1e-08;
 const LONGEST = 1000000.0;
 const MOST_WINDOWS = 10000;
 const WINDOW = 8.0;
@@ -7566,7 +7851,15 @@ const JOINS = 48;
 const LINE_STEP = 0.5;
 const MOST_ON_LINE = 24;
 const ARC_STEP_RAD = div(math.pi, 12.0);
-const SIX = list(iter([[1, 0, 1], [-1, 0, -1], [1, 0, -1], [-1, 0, 1], [1, -1, 1], [-1, 1, -1]])).map((one) => iter(one)).map(([u, v, w]) => kernel.set_of(arrays.encode(u, v, w)));
+const SIX_CONTROLS = [[1.0, 0.0, 1.0], [-1.0, 0.0, -1.0], [1.0, 0.0, -1.0], [-1.0, 0.0, 1.0], [1.0, -1.0, 1.0], [-1.0, 1.0, -1.0]];
+const SIX = list(iter(SIX_CONTROLS)).map((one) => iter(one)).map(([u, v, w]) => arrays.encode(int(u), int(v), int(w)));
+const lattice_MOST_POSES = 4000;
+const lattice_BATCH = 64;
+const SAME_ENTRY = 1e-06;
+const CELL = 0.5;
+const SPAN = pow(2, 20);
+const NEIGHBOURS = 6;
+const DENSE = 32;
 const PIECE_M = 0.001;
 const OUTER_CONTROLS = [[1, 1], [-1, -1], [1, -1], [-1, 1]];
 const SAME_LENGTH = 1e-09;
