@@ -200,7 +200,6 @@ ELSEWHERE = {
     ("loiter.kernel.motion", "reduce"): "arrays.reduce_states",
     # The page has no string pulled taut, which needs shapely: its bound is the fastest entry.
     ("loiter.fences.taut", "least_length_m"): "arrays.no_length",
-    ("loiter.planning.landing", "LandingPlan"): "arrays.Absent",
     ("loiter.fences.model", "_invalidity"): "shapes.invalidity",
     ("loiter.fences.model", "_gap_m"): "shapes.gap_m",
     ("loiter.compiled.solver", "first_in_slot"): "kernel.first_in_slot",

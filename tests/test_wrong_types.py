@@ -21,9 +21,6 @@ PLACED = fences.PlacedFence(
 )
 LEG = loiter.Leg(POSE, ORBIT, exit_to=(600.0, 0.0))
 LEG_PLAN = loiter.plan_leg(LEG, UAV)
-RUNWAY = loiter.Runway(0.0, 0.0, 90.0, altitude_m=500.0)
-LANDING = loiter.Landing(Pose(-400.0, 900.0, 90.0, altitude_m=650.0), RUNWAY, radius_m=120.0, final_m=500.0)
-SINKING = Aircraft(18.0, max_bank_deg=35.0, descent_rate_m_s=3.0)
 TABLE = {"columns": {"east_m": "x"}, "origin": FRAME, "orbit_velocity_m_s": (1.0, 0.0), "slot": loiter.Slot(0.0)}
 SCENE = {"orbit": ORBIT, "aircraft": UAV, "wind": WIND}
 SAVED = {"maneuver": MANEUVER, "frame": FRAME, "datum": io.AltitudeDatum(), "altitude_m": 900.0}
@@ -38,7 +35,6 @@ CALLS = [
     (io.save_leg, {"plan": LEG_PLAN, "path": "leg.kml", "frame": FRAME, "fence": PLACED}, "plan path frame fence"),
     (loiter.fleet, {"poses": [POSE], **SCENE}, "poses orbit aircraft wind"),
     (loiter.plan_leg, {"leg": LEG, "aircraft": UAV, "wind": WIND}, "leg aircraft wind"),
-    (loiter.plan_landing, {"landing": LANDING, "aircraft": SINKING, "wind": WIND}, "landing aircraft wind"),
     (loiter.hold, {**SCENE, "turn": "cw"}, "orbit aircraft wind turn"),
     (loiter.reduce, {"east_m": 0, "north_m": 0, "heading_deg": 0, "orbit": ORBIT, "aircraft": UAV}, "orbit aircraft"),
     (ORBIT.fitted, {"aircraft": UAV, "wind": WIND}, "aircraft wind"),

@@ -33,7 +33,6 @@ if TYPE_CHECKING:
     from loiter.planning.arrival import plan_at
     from loiter.planning.fleet import FleetPlan, fleet
     from loiter.planning.hold import hold
-    from loiter.planning.landing import Landing, LandingPlan, Runway, plan_landing
     from loiter.planning.leg import Leg, LegPlan, plan_leg
     from loiter.planning.maneuver import Maneuver
     from loiter.planning.model import Aircraft, Orbit, Pose, Segment, Turn, Wind
@@ -50,7 +49,6 @@ _NAMES = {
         "planning.arrival": "plan_at",
         "planning.fleet": "FleetPlan fleet",
         "planning.hold": "hold",
-        "planning.landing": "Landing LandingPlan Runway plan_landing",
         "planning.leg": "Leg LegPlan plan_leg",
         "planning.maneuver": "Maneuver",
         "planning.model": "Aircraft Orbit Pose Segment Turn Wind",
@@ -65,14 +63,11 @@ __all__ = [
     "Aircraft",
     "FleetPlan",
     "Gradient",
-    "Landing",
-    "LandingPlan",
     "Leg",
     "LegPlan",
     "Maneuver",
     "Orbit",
     "Pose",
-    "Runway",
     "Segment",
     "Slot",
     "Solution",
@@ -90,7 +85,6 @@ __all__ = [
     "plan",
     "plan_all",
     "plan_at",
-    "plan_landing",
     "plan_leg",
     "reduce",
     "solve",

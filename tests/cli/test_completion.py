@@ -12,7 +12,6 @@ COMMANDS = [
     "plan",
     "leg",
     "fleet",
-    "land",
     "batch",
     "fly",
     "upload",

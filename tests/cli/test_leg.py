@@ -34,6 +34,21 @@ def test_a_picture_shows_the_hold_and_the_way_out(shown, tmp_path):
         assert f'id="{gid}"' in drawn
 
 
+def test_files_and_a_picture_with_a_fence(shown, tmp_path):
+    """The picture has the altitude and the fence, and the .plan the fence too."""
+    fence = tmp_path / "field.plan"
+    areas = [{"polygon": [[46.98, 7.96], [47.03, 7.96], [47.03, 8.03], [46.98, 8.03]], "inclusion": True, "version": 1}]
+    geo = {"circles": [], "polygons": areas, "version": 2}
+    fence.write_text(json.dumps({"fileType": "Plan", "version": 1, "geoFence": geo}))
+    scene = f"leg --pose-lla 47.01 8.02 270 --orbit-lla 47 8 120 --exit-to-lla 47 8.01 {UAV} --altitude 700"
+    options = f"--to-altitude 540 --descent-rate 3 --fence {fence} --save {tmp_path}/a.plan --plot {tmp_path}/a.svg"
+    assert "The plan and its hold stay clear of the fence" in shown(f"{scene} {options}")
+    drawn = (tmp_path / "a.svg").read_text("utf-8")
+    for gid in ("altitude", "stay in", "exit", "point"):
+        assert f'id="{gid}"' in drawn
+    assert json.loads((tmp_path / "a.plan").read_text())["geoFence"] == geo
+
+
 @pytest.mark.parametrize(
     ("options", "sentence"),
     [

@@ -7,14 +7,14 @@ import pytest
 from pymavlink import mavwp
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
-from loiter import Aircraft, Landing, Leg, Orbit, Pose, Runway, Wind, plan_landing, plan_leg
+from loiter import Aircraft, Leg, Orbit, Pose, Wind, plan_leg
 from loiter.cli.app import main
 from loiter.errors import InvalidArgument
 from loiter.geo import LocalFrame
 from loiter.io import Autopilot, leg_mission, read_mission, save_leg
 
 FRAME = LocalFrame(47.0, 8.0)
-UAV = Aircraft(18.0, max_bank_deg=35.0, climb_rate_m_s=2.5, descent_rate_m_s=3.0)
+UAV = Aircraft(18.0, max_bank_deg=35.0, climb_rate_m_s=2.5)
 LOW, ORBIT = Pose(-400.0, 120.0, 90.0, altitude_m=500.0), Orbit(0.0, 0.0, 120.0)
 CLIMB = plan_leg(Leg(LOW, ORBIT, exit_to=(600.0, 0.0), altitude_m=700.0), UAV, Wind(8.0, 250.0))
 KML = "{http://www.opengis.net/kml/2.2}"
@@ -36,31 +36,6 @@ def test_pymavlink_reads_the_climb(tmp_path):
     assert (loiter.command, loiter.param1, loiter.param2, loiter.param4) == (31, 1.0, signed(CLIMB), 1.0)
     assert (loiter.z, end.z, end.command) == (700.0, 700.0, 16)
     assert read_mission(tmp_path / "leg.waypoints").items[-2].command == 31
-
-
-def test_pymavlink_reads_the_landing(tmp_path):
-    """The mark of the landing, the loiter at the glide slope, and the landing where that meets the runway."""
-    runway = Runway(0.0, 0.0, 90.0, altitude_m=450.0, glide_slope_deg=3.0, threshold_height_m=15.0)
-    plan = plan_landing(Landing(Pose(-400.0, 900.0, 90.0, altitude_m=700.0), runway, 120.0, 500.0, "cw"), UAV)
-    save_leg(plan, tmp_path / "landing.waypoints", frame=FRAME)
-    loader = mavwp.MAVWPLoader()
-    count = loader.load(str(tmp_path / "landing.waypoints"))
-    home, mark, loiter, land = (loader.wp(i) for i in (0, count - 3, count - 2, count - 1))
-    assert (mark.command, loiter.command, land.command) == (
-        mavlink.MAV_CMD_DO_LAND_START,
-        mavlink.MAV_CMD_NAV_LOITER_TO_ALT,
-        mavlink.MAV_CMD_NAV_LAND,
-    )
-    assert (loiter.param1, loiter.param2, loiter.param4) == (1.0, 120.0, 1.0)
-    # 500 m before the threshold 3 degrees have risen 26.2 m; 15 m are gone 286.2 m beyond it.
-    assert (loiter.z, land.z, home.z) == pytest.approx((491.204, 450.0, 450.0), abs=1e-3)
-    east, north = FRAME.to_local([loiter.x, land.x], [loiter.y, land.y])
-    assert east == pytest.approx([-500.0, 286.217], abs=1e-2)
-    assert north == pytest.approx([-120.0, 0.0], abs=1e-2)
-    assert (home.x, home.y) == pytest.approx((land.x, land.y))
-    save_leg(plan, tmp_path / "landing.kml", frame=FRAME)
-    *_, left = lines(tmp_path / "landing.kml")
-    assert [p[2] for p in (left[0], left[-1])] == pytest.approx([491.204, 465.0], abs=0.01)
 
 
 def test_turns_and_times_have_their_own_commands():

@@ -13,7 +13,7 @@ from pymavlink import mavwp
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
 from earth import SCENES, entry
-from loiter import Aircraft, Landing, Leg, Orbit, Pose, Runway, plan_landing, plan_leg
+from loiter import Aircraft, Leg, Orbit, Pose, plan_leg
 from loiter.errors import InvalidArgument
 from loiter.fences import PlacedCircle, PlacedFence, PlacedPolygon
 from loiter.geo import LocalFrame
@@ -92,35 +92,23 @@ def test_mavsdk_reads_the_plan(peer, tmp_path, name):
     assert (data.geofence_items, data.rally_items) == ([], [])
 
 
-def test_mavsdk_reads_a_leg_that_climbs(peer, tmp_path):
+def test_mavsdk_reads_a_leg_that_climbs_with_its_fence(peer, tmp_path):
     """The last items are a loiter that is left on the tangent at the altitude, and the point; by MAVLink's numbers."""
     autopilot, plugin = peer
     frame, uav = LocalFrame(47.0, 8.0), Aircraft(18.0, max_bank_deg=35.0, climb_rate_m_s=2.5)
     start, circle = Pose(-400.0, 120.0, 90.0, altitude_m=500.0), Orbit(0.0, 0.0, 120.0, "ccw")
     plan = plan_leg(Leg(start, circle, exit_to=(600.0, 0.0), altitude_m=700.0), uav)
-    save_leg(plan, tmp_path / "leg.plan", frame=frame, autopilot=autopilot)
-    loiter, end = plugin.import_qgroundcontrol_mission(str(tmp_path / "leg.plan")).mission_items[-2:]
+    corners = ((46.99, 7.98), (47.02, 7.98), (47.02, 8.02), (46.99, 8.02))
+    fence = PlacedFence((PlacedPolygon("field", corners, inclusion=True), PlacedCircle("mast", 47.01, 8.01, 60.0)))
+    path = tmp_path / "leg.plan"
+    save_leg(plan, path, frame=frame, autopilot=autopilot, fence=fence)
+    data = plugin.import_qgroundcontrol_mission(str(path))
+    loiter, end = data.mission_items[-2:]
     assert (loiter.command, end.command) == (mavlink.MAV_CMD_NAV_LOITER_TO_ALT, mavlink.MAV_CMD_NAV_WAYPOINT)
     assert (loiter.param1, loiter.param2, loiter.param4) == (1.0, -120.0, 1.0)
     assert {(item.frame, item.z) for item in (loiter, end)} == {(mavlink.MAV_FRAME_GLOBAL, 700.0)}
     check_place(loiter, 47.0, 8.0)
     check_place(end, *map(float, frame.to_geodetic(600.0, 0.0)))
-
-
-def test_mavsdk_reads_a_landing_with_its_fence(peer, tmp_path):
-    """By MAVLink's numbers: DO_LAND_START, NAV_LOITER_TO_ALT and NAV_LAND, and the corners of the fence."""
-    autopilot, plugin = peer
-    frame, uav = LocalFrame(47.0, 8.0), Aircraft(18.0, max_bank_deg=35.0, descent_rate_m_s=3.0)
-    landing = Landing(Pose(-400.0, 900.0, 90.0, 700.0), Runway(0.0, 0.0, 90.0, 450.0), 120.0, 500.0, "ccw")
-    corners = ((46.99, 7.98), (47.02, 7.98), (47.02, 8.02), (46.99, 8.02))
-    fence = PlacedFence((PlacedPolygon("field", corners, inclusion=True), PlacedCircle("mast", 47.01, 8.01, 60.0)))
-    path = tmp_path / "landing.plan"
-    save_leg(plan_landing(landing, uav), path, frame=frame, autopilot=autopilot, fence=fence)
-    data = plugin.import_qgroundcontrol_mission(str(path))
-    start, loiter, land = data.mission_items[-3:]
-    assert (start.command, loiter.command, land.command) == (189, 31, 21)
-    assert (loiter.param1, loiter.param2, loiter.param4, land.z) == (1.0, -120.0, 1.0, 450.0)
-    check_place(land, *map(float, frame.to_geodetic(286.217, 0.0)))
     assert [item.command for item in data.geofence_items] == [5001] * 4 + [5004]
     for item, corner in zip(data.geofence_items, corners, strict=False):
         check_place(item, *corner)

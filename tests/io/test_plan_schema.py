@@ -7,14 +7,14 @@ from pathlib import Path
 import pytest
 from jsonschema import Draft202012Validator
 
-from loiter import Aircraft, Landing, Leg, Orbit, Pose, Runway, plan, plan_landing, plan_leg
+from loiter import Aircraft, Leg, Orbit, Pose, plan, plan_leg
 from loiter.fences import PlacedCircle, PlacedFence, PlacedPolygon
 from loiter.geo import LocalFrame
 from loiter.io import Autopilot, save, save_leg
 
 SCHEMA = json.loads((Path(__file__).parent / "plan_schema.json").read_text())
 VALIDATOR = Draft202012Validator(SCHEMA)
-FRAME, UAV = LocalFrame(47.0, 8.0), Aircraft(18.0, max_bank_deg=35.0, climb_rate_m_s=2.5, descent_rate_m_s=3.0)
+FRAME, UAV = LocalFrame(47.0, 8.0), Aircraft(18.0, max_bank_deg=35.0, climb_rate_m_s=2.5)
 HIGH, ORBIT = Pose(-400.0, 900.0, 90.0, altitude_m=700.0), Orbit(0.0, 0.0, 120.0)
 FENCE = PlacedFence(
     (
@@ -24,13 +24,9 @@ FENCE = PlacedFence(
 )
 
 
-def landing_plan(path, autopilot):
-    landing = Landing(HIGH, Runway(0.0, 0.0, 90.0, 450.0), 120.0, 500.0)
-    save_leg(plan_landing(landing, UAV), path, frame=FRAME, autopilot=autopilot, fence=FENCE)
-
-
 def leg_plan(path, autopilot):
-    save_leg(plan_leg(Leg(HIGH, ORBIT, (600.0, 0.0), altitude_m=800.0), UAV), path, frame=FRAME, autopilot=autopilot)
+    leg = Leg(HIGH, ORBIT, (600.0, 0.0), altitude_m=800.0)
+    save_leg(plan_leg(leg, UAV), path, frame=FRAME, autopilot=autopilot, fence=FENCE)
 
 
 def entry_plan(path, autopilot):
@@ -39,8 +35,8 @@ def entry_plan(path, autopilot):
 
 @pytest.fixture(scope="module")
 def document(tmp_path_factory):
-    path = tmp_path_factory.mktemp("plan") / "landing.plan"
-    landing_plan(path, Autopilot.ARDUPILOT)
+    path = tmp_path_factory.mktemp("plan") / "leg.plan"
+    leg_plan(path, Autopilot.ARDUPILOT)
     return json.loads(path.read_text())
 
 
@@ -49,7 +45,7 @@ def test_the_schema_is_one():
 
 
 @pytest.mark.parametrize("autopilot", list(Autopilot))
-@pytest.mark.parametrize("write", [landing_plan, leg_plan, entry_plan])
+@pytest.mark.parametrize("write", [leg_plan, entry_plan])
 def test_what_is_written_has_the_published_form(tmp_path, write, autopilot):
     write(tmp_path / "a.plan", autopilot)
     document = json.loads((tmp_path / "a.plan").read_text())

@@ -56,22 +56,6 @@ FILE is a CSV file with a row for each aircraft: its position and heading, in th
       --bank 35 --wind 8 250 --altitude 900 --save fleet.kml""",
     ),
     Command(
-        "land",
-        "loiter.cli.commands.legs:land",
-        PLANS,
-        40,
-        help="""Plan the fastest landing by a circle beside the final approach: the entry, the way down, and the approach.
-
-It needs a start with --pose and --altitude, the runway (--runway, --elevation), the circle's --radius, the least length of the final approach (--final), the airspeed, one limit on the turn, and the --descent-rate. The circle touches the final approach, to its right or to its left, and is left at the altitude of the glide slope; side, turns and entry are those with the least time over the threshold.""",
-        examples=r"""
-  loiter land --pose -400 900 90 --altitude 650 --runway 0 0 90 \
-      --elevation 500 --radius 120 --final 500 \
-      --airspeed 18 --bank 35 --descent-rate 3
-  loiter land --pose-lla 47.01 8.02 270 --altitude 700 \
-      --runway-lla 47.0 8.0 90 --elevation 500 --radius 120 --final 800 \
-      --airspeed 18 --bank 35 --descent-rate 3 --save landing.plan""",
-    ),
-    Command(
         "batch",
         "loiter.cli.commands.batch:batch",
         PLANS,

@@ -16,13 +16,9 @@ from loiter.geo.frame import degrees_of
 from loiter.io.missions.altitudes import AltitudeDatum, AltitudeReference
 from loiter.planning.compass import wrapped
 from loiter.planning.flight import radius_of
-from loiter.planning.landing import LandingPlan
 from loiter.planning.leg import LegPlan
 from loiter.planning.maneuver import Maneuver, decimals_of
 from loiter.planning.model import ACTIONS, Orbit, Pose, Segment
-
-# What is done at the exit of a leg, and at its end; a landing has words of its own.
-LEAVE = "leave straight", "at the point"
 
 # Durations that are equal in theory differ by rounding, relatively by 1e-15 in near scenes and by 1e-14 in far ones.
 SAME_DURATION = 1e-12
@@ -129,9 +125,8 @@ def leg_table(plan: LegPlan, frame: LocalFrame | None = None) -> Table:
     hold = f"hold {plan.turn.described}, {plan.held_deg / 360.0:.2f} turns"
     _add_row(rows, entry, entry.duration_s, hold, (plan.held_s, None), entry.join, frame)
     straight = plan.straight_s, plan.straight_s * entry.aircraft.airspeed_m_s
-    leave, end = ("final approach", "over the threshold") if isinstance(plan, LandingPlan) else LEAVE
-    _add_row(rows, entry, plan.exit_s, leave, straight, plan.exit, frame)
-    _add_row(rows, entry, plan.duration_s, end, None, plan.end, frame)
+    _add_row(rows, entry, plan.exit_s, "leave straight", straight, plan.exit, frame)
+    _add_row(rows, entry, plan.duration_s, "at the point", None, plan.end, frame)
     return rows
 
 

@@ -20,15 +20,15 @@ from loiter.planning.model import TURN_LIMITS
 # The arguments of the library that have an option of their name, without its unit: `chord_error_m` has --chord-error.
 _NAMED = """
 accept_fly_away airframe airspeed_m_s altitude_m altitude_reference arrive_s autopilot bearing_deg cases cells
-chord_error_m climb_rate_m_s cors declination_deg descent_rate_m_s exit_to fence final_m glide_slope_deg gust
+chord_error_m climb_rate_m_s cors declination_deg descent_rate_m_s exit_to fence gust
 hold_s home_altitude_m host indicated_airspeed_m_s keep layer_height_m lead_s log margin_m orbit orbit_from orbit_lla
-orbit_velocity_m_s out plot port pose pose_lla radius radius_m reach rejects replay reports reserve runs runway save
+orbit_velocity_m_s out plot port pose pose_lla radius reach rejects replay reports reserve runs save
 scheduler seed send separation_m show sim slot slot_at_s slot_band spacing_m states system temperature_c
-threshold_height_m timeout_s to_altitude_m tolerance_m true_radius turn turns wind workers yes
+timeout_s to_altitude_m tolerance_m true_radius turn turns wind workers yes
 """
 NAMED = frozenset(_NAMED.split())
 # Those of several values, each of which may be the argument of an error.
-SEVERAL = ("exit_to", "pose", "orbit", "origin", "runway", "wind")
+SEVERAL = ("exit_to", "pose", "orbit", "origin", "wind")
 # Those whose option has another name.
 RENAMED = {
     "max_bank_deg": "--bank",
@@ -49,9 +49,6 @@ RENAMED = {
     "pose true heading_deg": "--pose-lla HEADING",
     "origin latitude_deg": "--orbit-lla LAT",
     "origin longitude_deg": "--orbit-lla LON",
-    "runway altitude_m": "--elevation",
-    "threshold latitude_deg": "--runway-lla LAT",
-    "threshold longitude_deg": "--runway-lla LON",
     "orbit velocity_east_m_s": "--orbit-velocity EAST",
     "orbit velocity_north_m_s": "--orbit-velocity NORTH",
 }

@@ -192,14 +192,11 @@ class LegPlan:
 
     def __str__(self) -> str:
         """One line: entry, hold and exit."""
-        return f"{self._entry_and_hold()}, is at the point after {self.duration_s:.{decimals_of(self.leg.orbit)}f} s"
-
-    def _entry_and_hold(self) -> str:
         digits = decimals_of(self.leg.orbit)
         entry = f"{self.entry.word or 'on the circle already'}, {self.turn.described}"
         return (
             f"{entry}: joins in {self.entry.duration_s:.{digits}f} s, holds for {self.held_s:.{digits}f} s "
-            f"({self.held_deg / 360.0:.2f} turns)"
+            f"({self.held_deg / 360.0:.2f} turns), is at the point after {self.duration_s:.{digits}f} s"
         )
 
 

@@ -12,7 +12,6 @@ from matplotlib.figure import Figure
 
 from loiter.geo import LocalFrame
 from loiter.lazy import LazyModule
-from loiter.planning.landing import LandingPlan, Runway
 from loiter.planning.leg import LegPlan
 from loiter.plot.picture import (
     CHORD_RAD,
@@ -45,10 +44,9 @@ OUT: dict[str, Any] = {"color": "#CC79A7", "linewidth": 2.6}
 HELD: dict[str, Any] = {"color": "#E69F00", "linewidth": 2.6}
 EXIT: dict[str, Any] = MARK | {"marker": "s", "markersize": 8, "markerfacecolor": "white"}
 POINT: dict[str, Any] = MARK | {"marker": "*", "markersize": 13}
-RUNWAY: dict[str, Any] = {"color": "#707070", "linewidth": 6.0, "solid_capstyle": "butt"}
 
-# The least length of the runway that is drawn, metres, and the steps of the altitude in time.
-LEAST_RUNWAY_M, PROFILE_STEPS = 200.0, 300
+# The steps of the altitude in time.
+PROFILE_STEPS = 300
 
 
 def draw(
@@ -93,19 +91,8 @@ def draw(
     draw_fence(axes, fence, breaches, Box.around([(flown.east_m, flown.north_m)]))
     draw_bearings(axes, entry.wind, frame)
     lines: dict[str, Any] = {"hold": HELD | {"label": f"hold, {plan.held_deg / 360.0:.2f} turns"}, "way out": OUT}
-    if isinstance(plan, LandingPlan):
-        _draw_runway(axes, plan.runway)
-        lines |= {"runway": RUNWAY}
-    point = POINT | {"label": "threshold"} if isinstance(plan, LandingPlan) else POINT
-    draw_legend(figure, axes, SEGMENTS | lines | MARKS | {"exit": EXIT, "point": point} | FENCE_STYLES)
+    draw_legend(figure, axes, SEGMENTS | lines | MARKS | {"exit": EXIT, "point": POINT} | FENCE_STYLES)
     return figure
-
-
-def _draw_runway(axes: Axes, runway: Runway) -> None:
-    """The runway from its threshold to where the glide slope meets it, or farther."""
-    length_m = max(2.0 * runway.threshold_height_m / runway.descent, LEAST_RUNWAY_M)
-    east, north = np.transpose([runway.before(0.0), runway.before(-length_m)])
-    axes.plot(east, north, zorder=1.5, gid="runway", **RUNWAY)
 
 
 def _draw_altitude(axes: Axes, plan: LegPlan) -> None:
@@ -122,8 +109,7 @@ def _draw_altitude(axes: Axes, plan: LegPlan) -> None:
 
 def _title(plan: LegPlan) -> str:
     word = plan.entry.word or "on the circle already"
-    end = "over the threshold" if isinstance(plan, LandingPlan) else "at the point"
     return (
         f"{word}, {plan.turn.described}: joins in {plan.entry.duration_s:.4g} s, holds for {plan.held_s:.4g} s\n"
-        f"leaves after {plan.exit_s:.4g} s, {end} after {plan.duration_s:.4g} s"
+        f"leaves after {plan.exit_s:.4g} s, at the point after {plan.duration_s:.4g} s"
     )

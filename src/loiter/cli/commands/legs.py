@@ -1,28 +1,24 @@
-"""`loiter leg` and `loiter land`: in, round and out of a circle, to a point or down onto a runway."""
+"""`loiter leg`: in, round and out of a circle, to a point."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from typing import Annotated, NamedTuple
 
-from cyclopts import Group, Parameter
+from cyclopts import Parameter
 from rich.console import RenderableType
 
 from loiter.cli import report
 from loiter.cli.fences import LegFenceOptions, check_fence
-from loiter.cli.numbers import altitude, angle, check_declination, metres, one, turn_name
 from loiter.cli.options import (
     EAST_NORTH,
-    EAST_NORTH_HEADING,
     LAT_LON,
-    LAT_LON_HEADING,
     AircraftOptions,
     Altitude,
     AutopilotChoice,
     Files,
     Fit,
     Json,
-    Metres,
     OrbitOptions,
     PictureOptions,
     Seconds,
@@ -30,10 +26,9 @@ from loiter.cli.options import (
     StartOptions,
     WindOptions,
     way_out,
-    written_altitude,
 )
 from loiter.cli.output import Output
-from loiter.cli.scenes import fit_proposed, read_options, start_pose
+from loiter.cli.scenes import fit_proposed, read_options
 from loiter.cli.sentences import argument_names
 from loiter.cli.status import CHECK_FAILED
 from loiter.errors import InvalidArgument
@@ -42,10 +37,8 @@ from loiter.geo.atmosphere import LAPSE_K_PER_M
 from loiter.io.legs import check_leg_format, leg_content
 from loiter.io.missions.items import AUTOPILOTS, AutopilotName
 from loiter.io.missions.site import Site
-from loiter.planning.landing import Landing, LandingPlan, Runway, plan_landing
 from loiter.planning.leg import Leg, LegPlan, plan_leg
-from loiter.planning.model import Aircraft, Turn, TurnName
-from loiter.planning.problem import Problem
+from loiter.planning.model import Aircraft
 
 Save = Annotated[
     Files,
@@ -55,28 +48,11 @@ Save = Annotated[
     ),
 ]
 
-runway_group = Group("The runway and the circle beside its final approach", sort_key=1)
-
-
-@Parameter(name="*", group=way_out)
-@dataclass(frozen=True)
-class RateOptions:
-    """The rates of the aircraft."""
-
-    climb_rate: Speed = None
-    """Rate at which it climbs."""
-    descent_rate: Speed = None
-    """Rate at which it descends."""
-
-    def given_to(self, uav: Aircraft) -> Aircraft:
-        """An aircraft with these rates."""
-        return replace(uav, climb_rate_m_s=self.climb_rate, descent_rate_m_s=self.descent_rate)
-
 
 @Parameter(name="*", group=way_out)
 @dataclass(frozen=True)
 class WayOutOptions:
-    """The point that the aircraft flies to from the circle, and what it waits for there."""
+    """The point that the aircraft flies to from the circle, what it waits for there, and its rates."""
 
     exit_to: Annotated[tuple[float, float] | None, EAST_NORTH] = None
     """The point that the aircraft flies to from the circle, on a tangent: metres."""
@@ -88,6 +64,14 @@ class WayOutOptions:
     """Least number of turns on the circle."""
     to_altitude: Altitude = None
     """Altitude at the exit; --altitude is that at the start. The climb or descent begins at once."""
+    climb_rate: Speed = None
+    """Rate at which it climbs."""
+    descent_rate: Speed = None
+    """Rate at which it descends."""
+
+    def with_rates(self, uav: Aircraft) -> Aircraft:
+        """An aircraft with these rates."""
+        return replace(uav, climb_rate_m_s=self.climb_rate, descent_rate_m_s=self.descent_rate)
 
     def place(self, frame: LocalFrame | None) -> tuple[float, float]:
         """The point flown to, metres; raises `InvalidArgument` unless it is given once, in the units of the circle."""
@@ -102,52 +86,6 @@ class WayOutOptions:
         return float(east), float(north)
 
 
-@Parameter(name="*", group=runway_group)
-@dataclass(frozen=True, kw_only=True)
-class RunwayOptions:
-    """The runway, and the circle beside its final approach."""
-
-    runway: Annotated[tuple[float, float, float] | None, EAST_NORTH_HEADING] = None
-    """The threshold, metres, and the direction of landing in degrees clockwise from north."""
-    runway_lla: Annotated[tuple[float, float, float] | None, LAT_LON_HEADING] = None
-    """The same with WGS84 degrees and true north, with --pose-lla."""
-    elevation: Annotated[float, Parameter(converter=one(altitude), metavar="METRES")]
-    """Altitude of the threshold."""
-    glide_slope: Annotated[float, Parameter(converter=one(angle), metavar="DEGREES")] = 3.0
-    """Glide slope, over the ground."""
-    threshold_height: Annotated[float, Parameter(converter=one(metres), metavar="METRES")] = 15.0
-    """Height of the glide slope at the threshold."""
-    radius: Metres = None
-    """Radius of the circle; that of --params if absent."""
-    final: Annotated[float, Parameter(converter=one(metres), metavar="METRES")]
-    """Least length of the final approach, from the circle to the threshold."""
-    turn: Annotated[TurnName, Parameter(converter=turn_name)] = "either"
-    """Direction of flight around the circle: cw lies to the right of the approach, ccw to the left; either: the faster one."""
-
-    def read(self, start: StartOptions, air: WindOptions) -> tuple[Runway, LocalFrame | None]:
-        """The runway, and the local frame about its threshold if that is in degrees."""
-        given = (air.wind, start.pose, start.pose_lla, self.runway, self.runway_lla)
-        check_declination(air.declination, *(values[-1] for values in given if values))
-        if (self.runway is None) == (self.runway_lla is None):
-            raise InvalidArgument("runway", "or --runway-lla is needed, and not both")
-        if (start.pose is None) == (start.pose_lla is None):
-            raise InvalidArgument("pose", "or --pose-lla is needed, and not both")
-        if (start.pose_lla is None) != (self.runway_lla is None):
-            raise InvalidArgument("pose_lla", "and --runway-lla go together: places in degrees, or both in metres")
-        east_m, north_m, frame = 0.0, 0.0, None
-        if self.runway_lla is None:
-            assert self.runway is not None  # one of them is given
-            east_m, north_m, heading_deg = self.runway
-        else:
-            lat, lon, heading_deg = self.runway_lla
-            with argument_names(
-                **{"origin latitude_deg": "threshold latitude_deg", "origin longitude_deg": "threshold longitude_deg"}
-            ):
-                frame = LocalFrame(lat, lon)
-        true_deg = air.true_heading("runway heading_deg", heading_deg)
-        return Runway(east_m, north_m, true_deg, self.elevation, self.glide_slope, self.threshold_height), frame
-
-
 def leg(
     *,
     start: StartOptions = StartOptions(),
@@ -157,14 +95,13 @@ def leg(
     fence: LegFenceOptions = LegFenceOptions(),
     fit: Fit = False,
     way: WayOutOptions = WayOutOptions(),
-    rates: RateOptions = RateOptions(),
     save: Save = (),
     autopilot: AutopilotChoice = "ardupilot",
     json: Json = False,
     pictures: PictureOptions = PictureOptions(),
 ) -> int:
     """Plan the fastest way in, round and out of a holding circle towards a point."""
-    airspeeds = leg_airspeeds(uav, way.to_altitude, "to_altitude_m")
+    airspeeds = leg_airspeeds(uav, way.to_altitude)
     (problem, frame), remark = read_options(start, circle, airspeeds.highest, air, fit=fit)
     output = Output(json, pictures, save)
     output.check(check_leg_format)
@@ -175,40 +112,8 @@ def leg(
         asked = Leg(start_at, problem.orbit, point, hold_s=way.hold, turns=way.turns, altitude_m=way.to_altitude)
     with fit_proposed():
         problem.in_wind()  # raises where the circle cannot be held in the thinnest air of the leg
-        plan = plan_leg(asked, rates.given_to(airspeeds.planned), problem.wind)
+        plan = plan_leg(asked, way.with_rates(airspeeds.planned), problem.wind)
     return show(plan, frame, output, autopilot, fence, circle.site, remark, airspeeds.remark)
-
-
-def land(
-    *,
-    start: StartOptions = StartOptions(),
-    runway: RunwayOptions,
-    uav: AircraftOptions = AircraftOptions(),
-    rates: RateOptions = RateOptions(),
-    air: WindOptions = WindOptions(),
-    fence: LegFenceOptions = LegFenceOptions(),
-    save: Save = (),
-    autopilot: AutopilotChoice = "ardupilot",
-    json: Json = False,
-    pictures: PictureOptions = PictureOptions(),
-) -> int:
-    """Plan the fastest landing by a circle beside the final approach."""
-    output = Output(json, pictures, save)
-    output.check(check_leg_format)
-    if uav.altitude is None:
-        raise InvalidArgument("altitude_m", "is needed: it is the altitude at the start")
-    target, frame = runway.read(start, air)
-    begun = replace(start_pose(start, air, frame), altitude_m=written_altitude(uav.altitude))
-    radius_m = uav.preset.loiter_radius_m if runway.radius is None and uav.preset is not None else runway.radius
-    if radius_m is None:
-        raise InvalidArgument("radius_m", "is needed, or --params with the radius of loiters")
-    landing = Landing(begun, target, radius_m, runway.final, Turn(runway.turn))
-    airspeeds = leg_airspeeds(uav, runway.elevation, "runway altitude_m")
-    plan = plan_landing(landing, rates.given_to(airspeeds.planned), air.moving_air)
-    # Raises where the circle cannot be held in the thinnest air of the landing.
-    Problem(begun, plan.leg.orbit, airspeeds.highest.aircraft, air.moving_air).in_wind()
-    remarks = airspeeds.highest.remark, airspeeds.remark
-    return show(plan, frame, output, autopilot, fence, None, *remarks)
 
 
 def show(
@@ -249,14 +154,14 @@ class LegAirspeeds(NamedTuple):
     remark: str
 
 
-def leg_airspeeds(uav: AircraftOptions, other_m: float | None, argument: str) -> LegAirspeeds:
-    """The airspeeds between the altitude of the options and another one, metres, which `argument` gave.
+def leg_airspeeds(uav: AircraftOptions, other_m: float | None) -> LegAirspeeds:
+    """The airspeeds between the altitude of the options and that at the exit, metres.
 
     Raises `InvalidArgument` for an altitude without air of the standard atmosphere.
     """
     if uav.altitude is None or other_m is None or uav.indicated_m_s is None or uav.altitude == other_m:
         return LegAirspeeds(uav.aircraft, uav, "")
-    with argument_names(altitude_m=argument):
+    with argument_names(altitude_m="to_altitude_m"):
         density_ratio(other_m)
     halfway = _at(uav, 0.5 * (uav.altitude + other_m)).aircraft
     remark = f"Planned with that halfway between both altitudes, {halfway.airspeed_m_s:.4g} m/s."
@@ -281,12 +186,5 @@ def leg_lines(plan: LegPlan, frame: LocalFrame | None) -> list[RenderableType]:
         change = "climbs" if plan.leg.climb_m > 0.0 else "descends"
         lines.append(
             f"The aircraft {change} by {abs(plan.leg.climb_m):.4g} m from the start to the exit at the latest."
-        )
-    if isinstance(plan, LandingPlan):
-        runway, beyond_m = plan.runway, plan.runway.threshold_height_m / plan.runway.descent
-        lines.append(
-            f"Glide slope {runway.glide_slope_deg:g} deg from {plan.exit_altitude_m:.4g} m, "
-            f"{plan.sink_rate_m_s:.3g} m/s down: {runway.threshold_height_m:g} m above the threshold, "
-            f"on the runway {beyond_m:.0f} m beyond it."
         )
     return lines

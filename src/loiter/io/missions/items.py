@@ -41,7 +41,7 @@ AUTOPILOTS: dict[AutopilotName, Autopilot] = {"ardupilot": Autopilot.ARDUPILOT, 
 
 
 class MavCommand(IntEnum):
-    """The commands that fly to a place or round it, and the mark of a landing: MAVLink's MAV_CMD."""
+    """The commands that fly to a place or round it: MAVLink's MAV_CMD."""
 
     NAV_WAYPOINT = 16
     NAV_LOITER_UNLIM = 17
@@ -50,7 +50,6 @@ class MavCommand(IntEnum):
     NAV_LAND = 21
     NAV_LOITER_TO_ALT = 31
     DO_ORBIT = 34
-    DO_LAND_START = 189
     DO_REPOSITION = 192
 
 

@@ -1,11 +1,10 @@
-"""A leg as a mission: an approach, a loiter that ends by itself, and the point flown to afterwards, or the landing.
+"""A leg as a mission: an approach, a loiter that ends by itself, and the point flown to afterwards.
 
 The parameters are those of MAVLink's definition of the commands (message set common, MAV_CMD). ArduPlane (AP_Mission,
 ArduPlane's commands_logic) stores the radius of LOITER_TO_ALT in whole metres and that of LOITER_TURNS in a byte, in
 tens of metres above 255; it has no room for that of LOITER_TIME, which it flies with WP_LOITER_RAD, and leaves every
 loiter when it heads to the next waypoint, whatever the item says. PX4 (mavlink_mission.cpp) knows LOITER_TO_ALT and
-LOITER_TIME, with the flag for the heading, and no LOITER_TURNS. Both fly NAV_LAND on the line from the place before it:
-the exit of the loiter, at the altitude there.
+LOITER_TIME, with the flag for the heading, and no LOITER_TURNS.
 """
 
 from __future__ import annotations
@@ -18,14 +17,10 @@ from loiter.io.missions.altitudes import MEAN_SEA_LEVEL
 from loiter.io.missions.items import Autopilot, Frame, MavCommand, Mission, MissionItem
 from loiter.io.missions.mission import NO_PARAMS, Waypoint, approach_waypoints, checked_orbit, places_in_degrees
 from loiter.io.missions.signs import Params, with_circle
-from loiter.planning.landing import LandingPlan
 from loiter.planning.leg import LegPlan
 
 # Leave the circle when heading to the next waypoint, and fly to it on the line from the exit, not from the centre.
 HEADING_REQUIRED, FROM_EXIT = 1.0, 1.0
-
-# The mark where a landing begins.
-LAND_START = MissionItem(MavCommand.DO_LAND_START, Frame.NOWHERE, NO_PARAMS, 0.0, 0.0, 0.0)
 
 # ArduPlane stores the turns of LOITER_TURNS in a byte, and its radius in another.
 MOST_TURNS, LARGEST_TURNS_RADIUS_M = 255, 255.0
@@ -37,8 +32,6 @@ def leg_mission(plan: LegPlan, frame: LocalFrame, *, autopilot: int = Autopilot.
     The loiter ends by itself when the aircraft heads to that point on the tangent: NAV_LOITER_TO_ALT at the altitude
     of the exit, NAV_LOITER_TURNS for turns (ArduPilot, whole ones), NAV_LOITER_TIME for a time (PX4). Altitudes are
     those of the leg, metres above mean sea level; all items have that of the exit, so that the climb begins at once.
-    A landing has NAV_LAND where its glide slope meets the runway instead of the point, and DO_LAND_START before the
-    loiter, so that a return to land begins there; its home is on the runway.
     Raises `InvalidArgument` for a leg without altitudes, for a hold that the autopilot's missions cannot say, and like
     `mission`.
 
@@ -55,26 +48,18 @@ def leg_mission(plan: LegPlan, frame: LocalFrame, *, autopilot: int = Autopilot.
     command, params = _loiter(plan, autopilot)
     params = with_circle(command, params, orbit.radius_m, plan.turn)
     approach = approach_waypoints(plan.entry, autopilot)
-    start, centre = plan.entry.start, Waypoint(orbit.east_m, orbit.north_m)
-    runway = plan.runway if isinstance(plan, LandingPlan) else None
-    last = Waypoint(*(runway.touchdown if runway else plan.leg.exit_to))
-    home, *before, middle, end = places_in_degrees(
-        frame, (Waypoint(start.east_m, start.north_m), *approach, centre, last)
-    )
-    items = [
+    start = Waypoint(plan.entry.start.east_m, plan.entry.start.north_m)
+    centre, point = Waypoint(orbit.east_m, orbit.north_m), Waypoint(*plan.leg.exit_to)
+    home, *before, middle, end = places_in_degrees(frame, (start, *approach, centre, point))
+    items = (
         *(
             _item(MavCommand.NAV_WAYPOINT, (0.0, w.acceptance_m, 0.0, 0.0), place, altitude_m)
             for w, place in zip(approach, before, strict=True)
         ),
-        *([LAND_START] if runway else []),
         _item(command, params, middle, altitude_m),
-    ]
-    if runway is None:
-        items.append(_item(MavCommand.NAV_WAYPOINT, NO_PARAMS, end, altitude_m))
-        return Mission(tuple(items), (*home, MEAN_SEA_LEVEL.planned_home_m(altitude_m)))
-    runway_m = MEAN_SEA_LEVEL.checked(runway.altitude_m)
-    items.append(_item(MavCommand.NAV_LAND, NO_PARAMS, end, runway_m))
-    return Mission(tuple(items), (*end, runway_m))
+        _item(MavCommand.NAV_WAYPOINT, NO_PARAMS, end, altitude_m),
+    )
+    return Mission(items, (*home, MEAN_SEA_LEVEL.planned_home_m(altitude_m)))
 
 
 def exit_altitude_m(plan: LegPlan) -> float:

@@ -82,9 +82,6 @@ export const path_to_pose = (words, ...numbers) => (words.length ? durations(wor
 /** `loiter.fences.taut.least_length_m`: a bound that needs shapely, and is none here. */
 export const no_length = () => 0;
 
-/** A class of which the page has no values. */
-export const Absent = { kind: class {} };
-
 /** `loiter.kernel.words.encode`, whose controls may be fewer than three. */
 export const encode = (u1, u2 = ABSENT, u3 = ABSENT) => encoded(u1, u2, u3);
 

@@ -800,7 +800,7 @@ this.autocontinue = autocontinue;
 }
 }, ["command", "frame", "params", "latitude_deg", "longitude_deg", "altitude_m", "autocontinue"], 'MissionItem');
 
-const MavCommand = enumeration({ NAV_WAYPOINT: 16, NAV_LOITER_UNLIM: 17, NAV_LOITER_TURNS: 18, NAV_LOITER_TIME: 19, NAV_LAND: 21, NAV_LOITER_TO_ALT: 31, DO_ORBIT: 34, DO_LAND_START: 189, DO_REPOSITION: 192 });
+const MavCommand = enumeration({ NAV_WAYPOINT: 16, NAV_LOITER_UNLIM: 17, NAV_LOITER_TURNS: 18, NAV_LOITER_TIME: 19, NAV_LAND: 21, NAV_LOITER_TO_ALT: 31, DO_ORBIT: 34, DO_REPOSITION: 192 });
 
 const Frame = enumeration({ ABOVE_SEA: 0, NOWHERE: 2, ABOVE_HOME: 3, ABOVE_TERRAIN: 10 });
 
@@ -2305,15 +2305,11 @@ const self = this;
 return new Map([["duration_s", self.duration_s], ["turn", self.turn], ["entry", maneuver_maneuver_values(self.entry)], ["join_s", self.entry.duration_s], ["held_s", self.held_s], ["held_deg", self.held_deg], ["exit_s", self.exit_s], ["exit", pose_values(self.exit)], ["straight_s", self.straight_s], ["exit_to", new Map([["east_m", east_m], ["north_m", north_m]])], ["altitude_m", self.leg.altitude_m]]);
 }
 toString() {
-const self = this;
-return `${str(self._entry_and_hold())}, is at the point after ${format(self.duration_s, `.${String(decimals_of(self.leg.orbit))}f`)} s`;
-}
-_entry_and_hold() {
 let digits, entry;
 const self = this;
 digits = decimals_of(self.leg.orbit);
 entry = `${str(or(self.entry.word, () => "on the circle already"))}, ${str(Turn_described(self.turn))}`;
-return `${str(entry)}: joins in ${format(self.entry.duration_s, `.${String(digits)}f`)} s, holds for ${format(self.held_s, `.${String(digits)}f`)} s (${format(div(self.held_deg, 360.0), `.2f`)} turns)`;
+return `${str(entry)}: joins in ${format(self.entry.duration_s, `.${String(digits)}f`)} s, holds for ${format(self.held_s, `.${String(digits)}f`)} s (${format(div(self.held_deg, 360.0), `.2f`)} turns), is at the point after ${format(self.duration_s, `.${String(digits)}f`)} s`;
 }
 }, ["leg", "entry", "held_s", "held_deg", "exit", "straight_s"], 'LegPlan');
 
@@ -3509,25 +3505,18 @@ return document(outermost);
 }
 
 function leg_mission(plan, frame, autopilot = Autopilot.ARDUPILOT) {
-let altitude_m, approach, before, centre, command, end, home, items, last, middle, orbit, params, runway, runway_m, start;
+let altitude_m, approach, before, centre, command, end, home, items, middle, orbit, params, point, start;
 arrays.unchecked("plan", plan, LegPlan);
 arrays.unchecked("frame", frame, LocalFrame);
 [altitude_m, orbit] = iter([exit_altitude_m(plan), checked_orbit(plan.leg.orbit)]);
 [command, params] = iter(_loiter(plan, autopilot));
 params = with_circle(command, params, orbit.radius_m, plan.turn);
 approach = approach_waypoints(plan.entry, autopilot);
-[start, centre] = iter([plan.entry.start, Waypoint(orbit.east_m, orbit.north_m)]);
-runway = (truth(isinstance(plan, arrays.Absent)) ? plan.runway : null);
-last = Waypoint(...iter((truth(runway) ? runway.touchdown : plan.leg.exit_to)));
-[home, before, middle, end] = with_middle(places_in_degrees(frame, [Waypoint(start.east_m, start.north_m), ...iter(approach), centre, last]), 1, 2);
-items = [...iter(list(iter(zip(approach, before))).map((one) => iter(one)).map(([w, place]) => _item(MavCommand.NAV_WAYPOINT, [0.0, w.acceptance_m, 0.0, 0.0], place, altitude_m))), ...iter((truth(runway) ? [LAND_START] : [])), _item(command, params, middle, altitude_m)];
-if ((runway == null)) {
-append_(items, _item(MavCommand.NAV_WAYPOINT, NO_PARAMS, end, altitude_m));
-return Mission(tuple(items), [...iter(home), MEAN_SEA_LEVEL.planned_home_m(altitude_m)]);
-}
-runway_m = MEAN_SEA_LEVEL.checked(runway.altitude_m);
-append_(items, _item(MavCommand.NAV_LAND, NO_PARAMS, end, runway_m));
-return Mission(tuple(items), [...iter(end), runway_m]);
+start = Waypoint(plan.entry.start.east_m, plan.entry.start.north_m);
+[centre, point] = iter([Waypoint(orbit.east_m, orbit.north_m), Waypoint(...iter(plan.leg.exit_to))]);
+[home, before, middle, end] = with_middle(places_in_degrees(frame, [start, ...iter(approach), centre, point]), 1, 2);
+items = [...iter(list(iter(zip(approach, before))).map((one) => iter(one)).map(([w, place]) => _item(MavCommand.NAV_WAYPOINT, [0.0, w.acceptance_m, 0.0, 0.0], place, altitude_m))), _item(command, params, middle, altitude_m), _item(MavCommand.NAV_WAYPOINT, NO_PARAMS, end, altitude_m)];
+return Mission(items, [...iter(home), MEAN_SEA_LEVEL.planned_home_m(altitude_m)]);
 }
 
 function fastest_clear(fence, pose, orbit, aircraft, wind = null, margin_m = null) {
@@ -7754,7 +7743,6 @@ const WIDE_BAND = 2.0;
 const COUNTED_DEG = 10.0;
 const CHORD_RAD = 0.1;
 const PARTS = new Map([["enter", "ff005ed5"], ["hold", "ff000000"], ["leave", "ffb27200"]]);
-const LAND_START = MissionItem(MavCommand.DO_LAND_START, Frame.NOWHERE, NO_PARAMS, 0.0, 0.0, 0.0);
 const MOST_LEVELS = 16;
 const SPLIT = 12;
 const FIRST_PART_RAD = 0.8;
