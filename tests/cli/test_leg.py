@@ -65,6 +65,11 @@ def test_files_and_a_picture_with_a_fence(shown, tmp_path):
         ("--exit-to 600 0 --to-altitude 300", "--altitude is needed with --to-altitude"),
         ("--exit-to 600 0 --to-altitude 300 --altitude 100", "--climb-rate is needed: the leg climbs by 200 m"),
         ("--exit-to 600 0 --to-altitude 50 --altitude 100", "--descent-rate is needed: the leg descends by 50 m"),
+        ("--exit-to 600 0 --altitude FL100 --save x.plan", "--altitude is FL100, whose height above the sea depends"),
+        (
+            "--exit-to 600 0 --altitude 900 --to-altitude FL110 --save x.kml",
+            "--to-altitude is FL110, whose height above",
+        ),
         ("--exit-to 600 0 --orbit-velocity 3 0", "--orbit moves: the way out is planned for a circle"),
     ],
 )

@@ -26,6 +26,7 @@ from loiter.cli.options import (
     StartOptions,
     WindOptions,
     way_out,
+    written_altitude,
 )
 from loiter.cli.output import Output
 from loiter.cli.scenes import fit_proposed, read_options
@@ -105,6 +106,10 @@ def leg(
     (problem, frame), remark = read_options(start, circle, airspeeds.highest, air, fit=fit)
     output = Output(json, pictures, save)
     output.check(check_leg_format)
+    if save:
+        written_altitude(uav.altitude)
+        with argument_names(altitude_m="to_altitude_m"):
+            written_altitude(way.to_altitude)
     if way.to_altitude is not None and uav.altitude is None:
         raise InvalidArgument("altitude_m", "is needed with --to-altitude: it is the altitude at the start")
     start_at, point = replace(problem.pose, altitude_m=uav.altitude), way.place(frame)
