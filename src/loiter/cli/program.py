@@ -81,8 +81,8 @@ A file is written whole or not at all. Until then finished parts are kept in OUT
     Command(
         "serve",
         "loiter.cli.commands.serve:serve",
-        PLANS,
-        60,
+        PROGRAM,
+        120,
         help="""Serve, over HTTP, plans for programs and a page that shows the plan while you drag the aircraft.""",
         examples=r"""
   loiter serve
