@@ -102,6 +102,28 @@ def test_a_signal_between_two_lines_does_too(capsys, monkeypatch, number):
     assert "flies the fall-back circle" in err
 
 
+@pytest.mark.parametrize(
+    "numbers",
+    [
+        (signal.SIGTERM, signal.SIGTERM),
+        (signal.SIGINT, signal.SIGINT, signal.SIGINT),
+        (signal.SIGTERM, signal.SIGINT),
+        (signal.SIGHUP, signal.SIGTERM),
+    ],
+)
+def test_more_signals_cut_neither_the_command_back_nor_its_sentence_short(capsys, numbers):
+    raised = [
+        (10.0 + 0.05 * i, lambda v, number=number: signal.raise_signal(number)) for i, number in enumerate(numbers)
+    ]
+    vehicle = GuidedPlane(events=raised)
+    status, _, err = flown(vehicle, f"{GUIDE} --keep", capsys)
+    assert status == 130
+    assert err == (
+        "loiter: guiding was interrupted: guiding has stopped, and system 1 (ArduPilot) flies the fall-back circle\n"
+    )
+    assert len(vehicle.commands) == 2
+
+
 def test_an_interrupt_counts_where_a_shell_has_it_ignored(capsys, monkeypatch):
     """As a shell does for programs that it starts in the background."""
     printed = []

@@ -21,6 +21,7 @@ from mavlink.flyer import (
     ORBIT,
     PILOTS,
     RETURNS,
+    RTL,
     STARTING_S,
     VEHICLES,
     Airframe,
@@ -161,16 +162,82 @@ def test_what_happens_while_the_law_joins_ends_the_flight(kind, event, words, al
         falls_back(outcome)
 
 
+class Fenced(GuidedPlane):
+    """Reports a breach; with FENCE_ACTION RTL it goes home, and denies changes of mode, though it accepts the command."""
+
+    breach = 0
+
+    def breaks(self, after_s=0.0):
+        self.breach = 1
+        self.stream(162, self.clock())
+        self.events.append((self.clock() - self.began + after_s, lambda v: v.change_mode(RTL)))
+
+    def change_mode(self, mode):
+        if self.mode != RTL:
+            super().change_mode(mode)
+
+    def stream(self, number, now):
+        if number == 162:
+            self.transmit_safe(mavlink.MAVLink_fence_status_message(self.breach, 1, 3, 0))
+        else:
+            super().stream(number, now)
+
+
+@pytest.mark.parametrize("after_s", [0.0, 0.3])
+@pytest.mark.parametrize("at_s", [JOINING_S, HOLDING_S])
+def test_a_vehicle_that_goes_home_from_a_breach_is_not_said_to_circle(at_s, after_s):
+    """The breach is reported before a heartbeat shows the return home, and up to 0.3 s before that begins."""
+    outcome = guided(Fenced(events=[(at_s, lambda v: v.breaks(after_s))]))
+    assert outcome.end == (
+        "the vehicle is outside its fence, and then the pilot or a failsafe changed the mode to RTL: "
+        "guiding has stopped, nothing more is sent, and system 1 (ArduPilot) flies in RTL"
+    )
+    assert len(outcome.vehicle.commands) == 1
+    is_left_alone(outcome, at_s)
+
+
+def test_an_accepted_circle_is_not_one_that_is_flown():
+    """The change of mode is denied, as by FLTMODE_GCSBLOCK: the heartbeats say so, the answer does not."""
+
+    class Denying(GuidedPlane):
+        def change_mode(self, mode):
+            if not self.modes:
+                super().change_mode(mode)
+
+    def pilot(vehicle):
+        vehicle.mode = RTL
+
+    outcome = guided(Denying(events=[(JOINING_S, pilot)]), interrupt=[JOINING_S + 0.05])
+    assert outcome.end == (
+        "guiding was interrupted, and then the pilot or a failsafe changed the mode to RTL: "
+        "guiding has stopped, nothing more is sent, and system 1 (ArduPilot) flies in RTL"
+    )
+
+
+@pytest.mark.parametrize(
+    ("changes", "end"),
+    [
+        ({"landed_state": 1}, "is in GUIDED"),
+        ({"armed": False}, "is in GUIDED"),
+        ({"system_status": 8}, "is in GUIDED"),
+    ],
+)
+def test_a_vehicle_that_does_not_fly_is_not_said_to_fly(changes, end):
+    assert guided(GuidedPlane(events=[when(JOINING_S, **changes)])).end.endswith(end)
+
+
+def test_a_vehicle_that_another_program_guides_is_said_to_be_guided():
+    class Hearing(GuidedPlane):
+        def beat(self):
+            super().beat()
+            if self.clock() - (self.began or math.inf) >= JOINING_S:
+                for component in (25, 99):
+                    self.hear_station(component, 18)
+
+    assert guided(Hearing()).end.endswith("flies in GUIDED as the other program commands it")
+
+
 def test_a_breached_fence():
-    class Fenced(GuidedPlane):
-        breach = 0
-
-        def stream(self, number, now):
-            if number == 162:
-                self.transmit_safe(mavlink.MAVLink_fence_status_message(self.breach, 1, 3, 0))
-            else:
-                super().stream(number, now)
-
     outcome = guided(Fenced(events=[when(JOINING_S, breach=1)]))
     falls_back(ended(outcome, "the vehicle is outside its fence"))
 
@@ -588,6 +655,11 @@ def test_a_vehicle_that_does_not_bank_as_commanded(kind):
 def test_ctrl_c(kind, at_s):
     outcome = guided(kind(), interrupt=[at_s])
     assert isinstance(outcome.error, KeyboardInterrupt)
+    falls_back(ended(outcome, "guiding was interrupted"))
+
+
+def test_a_second_ctrl_c_does_not_cut_the_end_short():
+    outcome = guided(GuidedPlane(), interrupt=[JOINING_S, JOINING_S + 0.05])
     falls_back(ended(outcome, "guiding was interrupted"))
 
 

@@ -41,6 +41,21 @@ def ending_signals(handler: Callable[[int, FrameType | None], object]) -> Iterat
             signal.signal(number, before)
 
 
+def interrupt_once() -> Callable[[int, FrameType | None], None]:
+    """A handler that raises `KeyboardInterrupt` for the first signal alone.
+
+    A second one would cut short the command back to the fall-back circle, which takes seconds, and the last sentence.
+    """
+    signals: list[int] = []
+
+    def interrupt(number: int, _: FrameType | None) -> None:
+        signals.append(number)
+        if len(signals) == 1:
+            raise KeyboardInterrupt
+
+    return interrupt
+
+
 def print_line(document: dict[str, object]) -> None:
     """Print one JSON object on a line of its own, at once."""
     sys.stdout.write(json.dumps(document, allow_nan=False) + "\n")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import signal
 import sys
 from collections.abc import Callable
 from contextlib import closing, suppress
@@ -174,7 +173,7 @@ def guide(
         margin_m=fence.margin,
         **slotted.arguments,
     )
-    with vehicles.ending_signals(signal.default_int_handler), closing(reports):
+    with vehicles.ending_signals(vehicles.interrupt_once()), closing(reports):
         try:
             for vehicle in reports:
                 if json:

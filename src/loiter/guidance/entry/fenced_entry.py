@@ -283,12 +283,14 @@ class FencedEntry(LoiterEntry):
 @cache
 def search_process() -> ProcessPoolExecutor:
     """A process for searches that take a second or more: in a thread they would hold up what flies meanwhile."""
-    return ProcessPoolExecutor(1, get_context("forkserver"), _ignore_interrupts)
+    return ProcessPoolExecutor(1, get_context("forkserver"), _ignore_signals)
 
 
-def _ignore_interrupts() -> None:
-    """Leave the interrupt of a terminal to the program itself."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+def _ignore_signals() -> None:
+    """Leave the signals of a terminal to the program itself, which waits for the answers until it has ended."""
+    for name in ("SIGINT", "SIGTERM", "SIGHUP"):
+        if hasattr(signal, name):
+            signal.signal(getattr(signal, name), signal.SIG_IGN)
 
 
 def _at_once(search: Callable[..., ClearEntry], *arguments: object) -> Future[ClearEntry]:

@@ -35,6 +35,10 @@ from loiter.planning.slot import Slot
 # Seconds for a command to be confirmed: the fall-back circle, PX4's offboard mode, the hand-over.
 CONFIRM_S = 4.0
 
+# At an early end a heartbeat shows first whether the mode is still ours: it is awaited for the first time, seconds. An
+# autopilot that acts by itself, on a breach of its fence or in a failsafe, has changed its mode after the second.
+FRESH_MODE_S, OWN_ACTION_S = 0.5, 1.0
+
 # Seconds until the circle is commanded again, and PX4's change of mode, which is refused until PX4 has noticed the
 # setpoints.
 REPEAT_S, MODE_REPEAT_S = 0.5, 0.25
@@ -335,6 +339,7 @@ class GuidedFlight:
             return stop.reason if self._request.dry_run else f"{stop.reason}; nothing{more} was commanded"
         if stop.ours:
             try:
+                self._check_still_ours(stop)
                 if self._command_hold(measured=stop.measured):
                     return f"{stop.reason}: {self._end}, and {self._contact.name} flies the fall-back circle"
             except (LoiterError, GuidingStopped) as failure:
@@ -346,12 +351,42 @@ class GuidedFlight:
         """That guiding has ended, or that it never began."""
         return "guiding has stopped" if self._steered or self.resumed else "guiding has not begun"
 
+    def _check_still_ours(self, stop: StopReason) -> None:
+        """Steer on until a heartbeat has shown the present mode, or none comes; raises `GuidingStopped` for another's.
+
+        The reason to stop may have reached us before the change of mode that it has caused.
+        """
+        contact, began, levelled = self._contact, monotonic(), False
+        seen_from = began + (OWN_ACTION_S if stop.acts else 0.0)
+        now = began
+        while contact.telemetry.arrived("HEARTBEAT") <= seen_from and now < seen_from + FRESH_MODE_S:
+            contact.request_heartbeat(now)
+            levelled = self._keep_steering(measured=stop.measured, levelled=levelled)
+            now = contact.listen()
+            if (other := self._reason(now)) and not other.ours:
+                raise GuidingStopped(other)
+
+    def _hear_mode(self) -> bool:
+        """Listen until a heartbeat shows the present mode, if the link is alive; returns whether one has."""
+        contact, began = self._contact, monotonic()
+        now = began
+        with suppress(LinkFailed):
+            while contact.telemetry.arrived("HEARTBEAT") <= began and now < began + OBSERVE_S:
+                if self._monitor.silent(now):
+                    break
+                now = contact.listen()
+        return contact.telemetry.arrived("HEARTBEAT") > began
+
     def _consequence(self) -> str:
         """What the vehicle does when nothing more is sent: what it was observed to do, or is set to do."""
-        contact, mode = self._contact, self._modes.mode
-        lost = bool(self._monitor.silent(monotonic()))
+        contact, verb = self._contact, "flies" if self._hear_mode() else "was last seen"
+        mode = self._modes.mode
+        if self._monitor.is_ended:
+            return f"{contact.name} is in {self._modes.name}"
         if mode not in (GUIDED, OFFBOARD, HOLD) or not self._accepted:
-            return f"{contact.name} {'was last seen' if lost else 'flies'} in {self._modes.name}"
+            return f"{contact.name} {verb} in {self._modes.name}"
+        if contact.link.rivals:
+            return f"{contact.name} {verb} in {self._modes.name} as the other program commands it"
         elsewhere = self._observe_elsewhere()
         if elsewhere:
             return f"{contact.name} flies in {self._modes.name} {elsewhere}"
@@ -388,8 +423,9 @@ class GuidedFlight:
         contact = self._contact
         pending = contact.pending = self._hold_command()
         self._modes.expect(self._hold_mode)
-        deadline, levelled = monotonic() + CONFIRM_S, False
-        while not (pending.accepted and self._modes.confirmed):
+        deadline, levelled, accepted_at = monotonic() + CONFIRM_S, False, inf
+        # ArduPlane accepts the command also where it denies the change of mode: only a later heartbeat shows the mode.
+        while not (self._modes.confirmed and contact.telemetry.arrived("HEARTBEAT") > accepted_at):
             if monotonic() > deadline or (pending.final and not pending.accepted):
                 return False
             pending.send(contact.link, monotonic())
@@ -397,6 +433,7 @@ class GuidedFlight:
                 contact.request_heartbeat(monotonic())
             levelled = self._keep_steering(measured=measured, levelled=levelled)
             now = contact.listen()
+            accepted_at = min(accepted_at, now) if pending.accepted else inf
             if (stop := self._reason(now)) and not stop.ours:
                 raise GuidingStopped(stop)
         if measured and self._steered:

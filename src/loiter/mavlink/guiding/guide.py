@@ -180,17 +180,25 @@ def guide_request(
                     flight = GuidedFlight(contact, again, period_s, began)
                     flight.record, flight.resumed = record, True
             except GuidingStopped as stopped:
-                raise LinkFailed(flight.stop(stopped.stop)) from None
+                raise LinkFailed(_end(flight, stopped.stop)) from None
             except LinkFailed as failure:
-                raise LinkFailed(flight.stop(StopReason(str(failure), ours=False))) from failure
+                raise LinkFailed(_end(flight, StopReason(str(failure), ours=False))) from failure
             except KeyboardInterrupt:
-                raise KeyboardInterrupt(flight.stop(INTERRUPTED)) from None
+                raise KeyboardInterrupt(_end(flight, INTERRUPTED)) from None
             except BrokenPipeError:
                 # The caller has thrown it.
-                raise LinkFailed(flight.stop(OUTPUT_CLOSED)) from None
+                raise LinkFailed(_end(flight, OUTPUT_CLOSED)) from None
             except BaseException:
-                flight.stop(INTERRUPTED)
+                _end(flight, INTERRUPTED)
                 raise
+
+
+def _end(flight: GuidedFlight, stop: StopReason) -> str:
+    """The sentence of the end of a flight; one more interrupt, as by a second Ctrl-C, does not cut it short."""
+    try:
+        return flight.stop(stop)
+    except KeyboardInterrupt:
+        return flight.stop(stop)
 
 
 @contextmanager

@@ -48,13 +48,14 @@ class StopReason(NamedTuple):
 
     `ours` is whether the vehicle may be commanded once more, back to the fall-back circle: not if the link is lost, and
     not if the pilot or a failsafe has taken over. `measured` is whether its state is still known. `lost` is whether
-    nothing is heard of the vehicle.
+    nothing is heard of the vehicle. `acts` is whether the autopilot may act on the same reason by itself.
     """
 
     reason: str
     ours: bool = True
     measured: bool = True
     lost: bool = False
+    acts: bool = False
 
 
 class ConditionTimer:
@@ -105,23 +106,34 @@ class Monitor:
             return StopReason(silent, ours=False, measured=False, lost=True)
         if unexpected_mode := self.modes.unexpected_mode(now):
             return StopReason(unexpected_mode, ours=False)
-        heartbeat, state = self._telemetry.last("HEARTBEAT"), self._telemetry.last("EXTENDED_SYS_STATE")
-        if heartbeat is not None and heartbeat.system_status >= TERMINATION:
-            return StopReason("the autopilot has terminated the flight", ours=False)
-        if heartbeat is not None and not heartbeat.base_mode & ARMED:
-            return StopReason("the vehicle is disarmed", ours=False)
+        if ended := self._ended():
+            return StopReason(ended, ours=False)
         if self._stick.update(self.stick_moved, now) > STICK_S:
             return StopReason("the pilot moves a stick", ours=False)
-        if state is not None and state.landed_state == ON_GROUND:
-            return StopReason("the vehicle reports that it is on the ground", ours=False)
         return None
+
+    @property
+    def is_ended(self) -> bool:
+        """Whether the vehicle does not fly any more."""
+        return bool(self._ended())
+
+    def _ended(self) -> str:
+        """That the vehicle does not fly any more, in words; empty if it does."""
+        heartbeat, state = self._telemetry.last("HEARTBEAT"), self._telemetry.last("EXTENDED_SYS_STATE")
+        if heartbeat is not None and heartbeat.system_status >= TERMINATION:
+            return "the autopilot has terminated the flight"
+        if heartbeat is not None and not heartbeat.base_mode & ARMED:
+            return "the vehicle is disarmed"
+        if state is not None and state.landed_state == ON_GROUND:
+            return "the vehicle reports that it is on the ground"
+        return ""
 
     def _unsafe(self, now: float) -> StopReason | None:
         fence, heartbeat = self._telemetry.last("FENCE_STATUS"), self._telemetry.last("HEARTBEAT")
         if fence is not None and fence.breach_status:
-            return StopReason("the vehicle is outside its fence")
+            return StopReason("the vehicle is outside its fence", acts=True)
         if heartbeat is not None and heartbeat.system_status >= CRITICAL:
-            return StopReason("the autopilot reports a failsafe")
+            return StopReason("the autopilot reports a failsafe", acts=True)
         if problem := self._altitude(now):
             return problem
         if self.wind_problem:
