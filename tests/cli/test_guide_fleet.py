@@ -308,6 +308,18 @@ def test_the_exit_status_says_whether_all_are_in_their_slots(tmp_path, capsys, m
     assert "a: back\n" in err
 
 
+def test_a_closed_output_says_what_each_vehicle_does(tmp_path, capsys, monkeypatch):
+    def closed(self):
+        raise BrokenPipeError
+
+    monkeypatch.setattr(guide_fleet, "GuidedFleet", Scripted)
+    monkeypatch.setattr(guide_fleet, "abandon_output", lambda: None)
+    monkeypatch.setattr(guide_fleet._FleetFlight, "fly", closed)
+    table = table_of(tmp_path, "a,udpout:127.0.0.1:1", "b,udpout:127.0.0.1:2", header="name,connect")
+    assert main(f"guide --fleet {table} {GUIDE} --turn cw --yes".split()) == 3
+    assert capsys.readouterr().err == "loiter: standard output was closed; a: back; b: back\n"
+
+
 def test_where_the_last_one_is_lost_no_other_is_said_to_fly_on(capsys):
     members = [member("a"), member("b")]
     flown = guide_fleet._FleetFlight(fleet_of(*members), guide_fleet.FleetOutput(None, False, 1.0, json=True), [])

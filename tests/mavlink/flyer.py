@@ -189,6 +189,10 @@ class Flyer:
             self.transmit_safe(mavlink.MAVLink_manual_control_message(1, *self.joystick, 500, 0, 0))
         elif number == 87 and self.reports_target and self.hold_circle is not None:
             self.report_target(ms)
+        elif number == 62 and self.hold_circle is not None:
+            (x, y), radius_m, _ = self.hold_circle
+            outside_m = hypot(a.east - x, a.north - y) - radius_m
+            self.transmit_safe(mavlink.MAVLink_nav_controller_output_message(0.0, 0.0, 0, 0, 0, 0.0, 0.0, outside_m))
         elif number == 245:
             self.transmit_safe(mavlink.MAVLink_extended_sys_state_message(0, self.landed_state))
         elif number in (193, 230):
@@ -200,6 +204,12 @@ class Flyer:
         lat, lon = FRAME.to_geodetic(*self.hold_circle[0])
         place = round(float(lat) * 1e7), round(float(lon) * 1e7), self.altitude_target_m
         self.transmit_safe(mavlink.MAVLink_position_target_global_int_message(ms, 0, 0, *place, *[0.0] * 8))
+
+    def set_parameter(self, name, value, *, told=True):
+        """A ground station changes a parameter; the autopilot tells all stations, but not of a script's change."""
+        self.parameters = self.parameters | {name: (value, self.parameters[name][1])}
+        if told:
+            self.on_param_request_read(mavlink.MAVLink_param_request_read_message(1, 1, name.encode(), -1))
 
     def hear_station(self, component, kind, status=4, system=250):
         """Forward the heartbeat of another station."""
@@ -290,6 +300,7 @@ class GuidedPlane(Flyer, Plane):
     bank_limit_deg = 50.0
     parameters = {  # noqa: RUF012
         "NAVL1_LIM_BANK": (45.0, 9),
+        "WP_LOITER_RAD": (60.0, 9),
         "AIRSPEED_CRUISE": (17.49, 9),
         "ROLL_LIMIT_DEG": (50.0, 9),
         "RLL2SRV_TCONST": (0.4, 9),

@@ -1,18 +1,23 @@
 """The fence of a vehicle, read by the mission protocol."""
 
-from types import SimpleNamespace
+import math
+from typing import NamedTuple
 
+import numpy as np
 import pytest
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
 from loiter import Aircraft, Pose, plan
 from loiter.errors import LinkFailed
-from loiter.fences import PlacedCircle, PlacedFence, PlacedPolygon
+from loiter.fences import PlacedCircle, PlacedFence, PlacedPolygon, PolygonZone
+from loiter.fences.clear_entry import fastest_clear
+from loiter.fences.model import signed_distance
 from loiter.guidance.entry import fenced_entry
 from loiter.mavlink import download, download_fence
 from loiter.mavlink.guiding import preparation
+from loiter.mavlink.guiding.fall_back import FallBack
 from loiter.mavlink.guiding.flight import GuidedFlight
-from mavlink.flyer import FRAME, ORBIT, Airframe, GuidedPlane, guided
+from mavlink.flyer import FRAME, ORBIT, Airframe, GuidedPlane, guided, when
 from mavlink.vehicle import OLD, Vehicle, flying, item
 
 CORNERS = ((47.0, 8.0), (47.01, 8.0), (47.01, 8.02))
@@ -77,7 +82,7 @@ class FencedPlane(GuidedPlane):
 def _searches_at_once(monkeypatch):
     """These vehicles have a clock of their own, which another process does not know."""
     for module in (preparation, fenced_entry):
-        monkeypatch.setattr(module, "search_process", lambda: SimpleNamespace(submit=fenced_entry._at_once))
+        monkeypatch.setattr(module, "begin_search", fenced_entry._at_once)
 
 
 def guided_with(own_fence, **options):
@@ -110,6 +115,8 @@ def test_a_fence_is_watched_in_flight(fence, end, monkeypatch):
     """The plan is called clear whatever it is, as where the vehicle does not fly it."""
     monkeypatch.setattr(preparation, "_fenced", lambda contact, zones, request, chosen: chosen)
     monkeypatch.setattr(GuidedFlight, "_blocked", lambda flight: None)
+    monkeypatch.setattr(GuidedFlight, "_find_entry", lambda flight, request, settings: iter(()))
+    monkeypatch.setattr(GuidedFlight, "_clear_fall_back", lambda flight, circles, *rest: FallBack(circles[0], True))
     vehicle = FencedPlane(Airframe())
     vehicle.fence = fence
     outcome = guided(vehicle, seconds=25.0, coast_s=0.3, fence="vehicle")
@@ -135,6 +142,126 @@ def test_a_vehicle_is_guided_round_a_mast():
     mast = PlacedFence((PlacedCircle("mast", place.latitude_deg, place.longitude_deg, 4.0),))
     outcome = guided_with([], fence=mast, margin_m=3.0, dry_run=True)
     assert any(notice.startswith("The fastest clear entry found joins ") for notice in outcome.notices), outcome
+
+
+# A wall between a vehicle that flies east and the circle; searches take their time.
+
+WALL = PolygonZone("wall", ((-140.0, -150.0), (-100.0, -150.0), (-100.0, 110.0), (-140.0, 110.0)))
+PLACES = (FRAME.place(Pose(*corner, 0.0)) for corner in WALL.corners)
+PLACED_WALL = PlacedFence((PlacedPolygon("wall", tuple((each.latitude_deg, each.longitude_deg) for each in PLACES)),))
+
+
+class Slow(NamedTuple):
+    """A search whose answer comes at a time of the vehicle's clock."""
+
+    problem: fenced_entry.SearchProblem
+    at_s: float
+
+    def ready(self):
+        return preparation.monotonic() >= self.at_s
+
+    def get(self):
+        return fastest_clear(*self.problem)
+
+
+class Tracked(FencedPlane):
+    """Notes its track."""
+
+    def set_up(self):
+        self.track = []
+
+    def idle(self, now):
+        super().idle(now)
+        self.track.append((self.airframe.east, self.airframe.north))
+
+    @property
+    def least_m(self):
+        """How near it has come to the wall, metres; negative inside."""
+        return float(signed_distance(WALL, *np.array(self.track).T).min())
+
+
+@pytest.fixture
+def slow(monkeypatch):
+    """A function that makes searches take so many seconds."""
+
+    def take(took_s):
+        for module in (preparation, fenced_entry):
+            monkeypatch.setattr(module, "begin_search", lambda problem: Slow(problem, preparation.monotonic() + took_s))
+
+    return take
+
+
+def past_wall(start=(-650.0, -20.0, 90.0), vehicle=Tracked, events=(), **options):
+    return guided(vehicle(Airframe(*start), events), fence=PLACED_WALL, coast_s=60.0, **options)
+
+
+@pytest.mark.parametrize("took_s", [0.1, 3.0])
+@pytest.mark.parametrize("start", [(-650.0, -20.0, 90.0), (-550.0, 60.0, 120.0)])
+def test_an_entry_begins_where_the_vehicle_is_when_it_is_found(slow, start, took_s):
+    """It keeps clear of the wall, and is not commanded to a circle to which it would fly through that."""
+    slow(took_s)
+    outcome = past_wall(start)
+    assert outcome.end == ""
+    assert outcome.vehicle.least_m > 2.0
+    first, *_, last = (float(FRAME.to_local(m.x / 1e7, m.y / 1e7)[0]) for m in outcome.vehicle.commands)
+    assert first < -140.0
+    assert last == pytest.approx(ORBIT.east_m, abs=5.0)
+    assert any("the fall-back circle is one of " in notice for notice in outcome.notices)
+    assert outcome.notices.count("Its own way to the circle is clear of the fence: that is the fall-back circle now.")
+
+
+@pytest.mark.parametrize("at_s", [10.0, 14.0, 18.0, 22.0, 26.0, 30.0])
+def test_a_vehicle_whose_link_dies_keeps_clear_of_the_fence(slow, at_s):
+    slow(0.1)
+    outcome = past_wall(events=[when(at_s, silent=True, muted=True)])
+    assert "nothing was heard" in outcome.end
+    assert outcome.vehicle.least_m > 0.0
+
+
+@pytest.mark.parametrize("at_s", [10.0, 14.0, 18.0, 22.0, 26.0])
+def test_a_vehicle_that_is_commanded_back_keeps_clear_of_the_fence(slow, at_s):
+    slow(0.1)
+    outcome = past_wall(interrupt=[at_s])
+    assert outcome.end.startswith("guiding was interrupted: guiding has stopped, and system 1 (ArduPilot) flies ")
+    assert outcome.vehicle.least_m > 0.0
+    (east_m, _), _, _ = outcome.vehicle.hold_circle
+    assert outcome.end.endswith("flies the fall-back circle") == (abs(east_m - ORBIT.east_m) < 5.0)
+
+
+def test_a_vehicle_that_enters_a_zone_while_the_question_waits_is_not_guided():
+    outcome = past_wall((-250.0, -20.0, 90.0), confirm=lambda: False)
+    assert outcome.end == "the vehicle has entered the zone 'wall'; nothing was commanded"
+    assert outcome.vehicle.commands == []
+
+
+def test_a_search_that_takes_too_long_is_given_up(slow):
+    slow(1e9)
+    outcome = past_wall()
+    assert outcome.end == (
+        "system 1 (ArduPilot) cannot be guided: no entry that stays clear of the fence was found in 12 s; "
+        "nothing was commanded"
+    )
+
+
+def test_a_vehicle_that_is_never_where_an_entry_begins_is_not_guided(slow):
+    class Weaving(Tracked):
+        """Rolls from side to side in its mission."""
+
+        def fly_own(self):
+            return math.radians(40.0) * math.sin(1.5 * self.last)
+
+    slow(1.0)
+    outcome = past_wall(vehicle=Weaving)
+    assert "it was elsewhere than expected each time when an entry was found, 5 times" in outcome.end
+    assert outcome.vehicle.commands == []
+
+
+def test_a_vehicle_that_would_fly_through_the_fence_to_any_circle_is_not_commanded(monkeypatch):
+    monkeypatch.setattr(preparation, "_fenced", lambda contact, zones, request, chosen: chosen)
+    monkeypatch.setattr(GuidedFlight, "_find_entry", lambda flight, request, settings: iter(()))
+    outcome = past_wall((-195.0, -20.0, 90.0))
+    assert "by its own guidance it would fly through the fence" in outcome.end
+    assert outcome.vehicle.commands == []
 
 
 @pytest.mark.parametrize("kind", [Fenced, Ardu])

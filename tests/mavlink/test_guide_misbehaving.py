@@ -163,7 +163,7 @@ def test_what_happens_while_the_law_joins_ends_the_flight(kind, event, words, al
 
 
 class Fenced(GuidedPlane):
-    """Reports a breach; with FENCE_ACTION RTL it goes home, and denies changes of mode, though it accepts the command."""
+    """Reports a breach. With FENCE_ACTION RTL it goes home, and then accepts the command, but stays in its mode."""
 
     breach = 0
 

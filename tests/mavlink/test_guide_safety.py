@@ -17,6 +17,7 @@ from mavlink.flyer import (
     KINDS,
     ORBIT,
     PILOTS,
+    VEHICLES,
     FlightPort,
     GuidedPlane,
     OffboardPx4,
@@ -24,6 +25,7 @@ from mavlink.flyer import (
     miss_m,
     when,
 )
+from mavlink.vehicle import mavlink
 
 # Altitude.
 
@@ -245,6 +247,29 @@ def test_a_ground_station_that_changes_the_altitude_of_arduplane():
     assert "another station has sent the vehicle to another altitude, 700 m" in outcome.end
 
 
+def test_a_ground_station_that_changes_the_radius_alone():
+    def widen(vehicle):
+        vehicle.hold_circle = vehicle.hold_circle[0], 120.0, vehicle.hold_circle[2]
+
+    outcome = guided(GuidedPlane(events=[(JOINING_S, widen)]))
+    assert outcome.end.startswith("another station has sent the vehicle onto a circle of 120 m: guiding has stopped, ")
+    assert len(outcome.vehicle.commands) == 1
+
+
+def test_a_vehicle_that_obeys_another_station_is_left_to_it():
+    """Through a router its answer to the other station is heard; what came before the first command does not count."""
+
+    def obeys(vehicle):
+        vehicle.send(mavlink.MAVLink_command_ack_message(192, 0, 0, 0, 255, 190))
+
+    assert guided(GuidedPlane(events=[(0.5, obeys)])).end == ""
+    outcome = guided(GuidedPlane(events=[(JOINING_S, obeys)]))
+    assert outcome.end.startswith(
+        "another station has commanded the vehicle to hold another circle: guiding has stopped"
+    )
+    assert len(outcome.vehicle.commands) == 1
+
+
 def test_an_arduplane_that_reports_no_target_is_guided():
     vehicle = GuidedPlane()
     vehicle.reports_target = False
@@ -291,6 +316,54 @@ def test_no_remote_control_and_small_motions_are_no_pilot():
 
 def test_a_stick_that_was_never_in_the_middle_is_not_watched():
     assert [*moved(1000, 1500, 2000, 1500)] == [False, False, True, False]
+
+
+# Parameters that change in flight.
+
+
+@pytest.mark.parametrize("told", [True, False])
+@pytest.mark.parametrize(
+    ("kind", "name", "before", "now"),
+    [
+        (GuidedPlane, "ROLL_LIMIT_DEG", 50, 30.0),
+        (GuidedPlane, "AIRSPEED_CRUISE", 17.49, 22.0),
+        (OffboardPx4, "FW_R_LIM", 50, 30.0),
+        (OffboardPx4, "FW_PN_R_SLEW_MAX", 90, 20.0),
+    ],
+)
+def test_a_parameter_that_the_law_was_built_for_ends_the_flight(kind, name, before, now, told):
+    """Told to all stations, it is known at once; otherwise within the seconds in which all are read again."""
+    event = JOINING_S, lambda v: v.set_parameter(name, now, told=told)
+    outcome = guided(kind(events=[event]), keep=True)
+    end = f"{name} was changed from {before} to {now:g} in flight: guiding has stopped, and {VEHICLES[kind]} flies the"
+    assert outcome.end == f"{end} fall-back circle"
+    assert outcome.ended_at < JOINING_S + (1.5 if told else 8.0)
+
+
+def test_a_lower_bank_limit_than_before_the_question_is_planned_for():
+    vehicle = GuidedPlane(events=[(4.0, lambda v: v.set_parameter("ROLL_LIMIT_DEG", 40.0))])
+    assert guided(vehicle, confirm=lambda: vehicle.clock() - vehicle.began > 6.0).end == ""
+    assert 35.0 < max(map(abs, vehicle.asked)) < 39.5 + 1e-4
+
+
+def test_a_bank_limit_that_leaves_what_is_commanded_is_none():
+    events = [(JOINING_S, lambda v: v.set_parameter("ROLL_LIMIT_DEG", 35.0))]
+    assert guided(GuidedPlane(events=events), max_bank_deg=30.0).end == ""
+
+
+def test_the_radius_that_a_ground_station_sets_is_not_overridden_in_silence():
+    outcome = guided(GuidedPlane(events=[(JOINING_S, lambda v: v.set_parameter("WP_LOITER_RAD", 200.0))]))
+    said = "WP_LOITER_RAD was changed from 60 to 200 in flight: the circle of 80 m is flown all the same."
+    assert (outcome.end, outcome.notices.count(said)) == ("", 1)
+
+
+def test_the_action_after_a_lost_link_is_the_present_one():
+    """COM_OBL_RC_ACT is changed to return."""
+    events = [
+        (JOINING_S, lambda v: v.set_parameter("COM_OBL_RC_ACT", 3)),
+        when(JOINING_S + 1.0, silent=True, muted=True),
+    ]
+    assert guided(OffboardPx4(events=events)).end.endswith("PX4 follows COM_OBL_RC_ACT: return")
 
 
 # A lost link.

@@ -46,7 +46,7 @@ class Flight(Vehicle):
 
     autopilot, haste, every_s, moving = 3, 4.0, 0.01, True
     parameters = Plane.parameters
-    attitude = position = True
+    attitude = position = changes_mode = True
     result = ACCEPTED
 
     def __init__(self, start=START, orbit=ORBIT, wind=None):
@@ -54,6 +54,12 @@ class Flight(Vehicle):
         self.maneuver = plan(start, orbit, UAV, wind)
         self.track = self.maneuver.sample(STEP_S)
         self.begun, self.next_position = None, 0.0
+
+    def acknowledge_command(self, message, result):
+        """It changes to the mode in which it holds what it is sent: GUIDED, AUTO.LOITER."""
+        if result == ACCEPTED and message.command in (34, 192) and self.changes_mode:
+            self.mode = 15 if message.command == 192 else 4 << 16 | 3 << 24
+        super().acknowledge_command(message, result)
 
     def idle(self, now):
         super().idle(now)
@@ -575,7 +581,7 @@ class Answers(Flight):
         self.commands.append(message)
         result = self.results.pop(0) if self.results else None
         if result is not None:
-            self.send(mavlink.MAVLink_command_ack_message(message.command, result, 0, 0, *self.who(message)))
+            self.acknowledge_command(message, result)
         if result == 5:
             self.send(mavlink.MAVLink_command_ack_message(400, 4, 0, 0, *self.who(message)))
             self.on_command_int(message)
@@ -597,6 +603,16 @@ def test_a_refused_command_is_reported_in_words(result):
     name = mavlink.enums["MAV_RESULT"][result].name if result < 9 else "MAV_RESULT 77"
     with pytest.raises(LinkFailed, match=rf"system 1 \(ArduPilot\) refused to hold the circle: .*{name}"):
         watched(Answers(result), 1, send=True)
+
+
+@pytest.mark.parametrize(("autopilot", "name"), [(3, "RTL"), (12, "AUTO.RTL")])
+def test_an_accepted_circle_is_not_said_to_be_held_in_another_mode(autopilot, name, monkeypatch):
+    monkeypatch.setattr(import_module("loiter.mavlink.watching.watch"), "CHANGE_S", 0.3)
+    flight = Answers(ACCEPTED)
+    flight.autopilot, flight.changes_mode = autopilot, False
+    flight.mode = 11 if autopilot == 3 else 4 << 16 | 5 << 24
+    with pytest.raises(LinkFailed, match=rf"accepted the command to hold the circle, but flies in {name}$"):
+        watched(flight, 2, send=True)
 
 
 def test_a_command_that_is_never_answered_fails():

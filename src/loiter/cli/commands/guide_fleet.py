@@ -63,7 +63,9 @@ def guide_fleet(table: Path, request: FleetRequest, output: FleetOutput) -> int:
                 flight.fly()
         except BrokenPipeError:
             abandon_output()
-            raise LinkFailed("standard output was closed: guiding has stopped") from None
+            fleet.stop()
+            ends = (f"{each.vehicle.name}: {each.ended.sentence}" for each in fleet.members if each.ended is not None)
+            raise LinkFailed(f"standard output was closed; {'; '.join(ends)}") from None
         settled = fleet.settled
         fleet.stop()
         for each in fleet.members:

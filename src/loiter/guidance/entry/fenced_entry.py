@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import signal
-from collections.abc import Callable
-from concurrent.futures import Future, ProcessPoolExecutor
 from contextlib import suppress
 from functools import cache
-from math import inf
+from math import inf, remainder
 from multiprocessing import get_context
-from typing import Any, NamedTuple
+from multiprocessing.pool import Pool
+from typing import Any, NamedTuple, Protocol
 
 from loiter.errors import InvalidArgument, LoiterError, RadiusTooSmall, WindTooStrong, instance, not_negative
 from loiter.fences import ClearEntry, Fence, check, default_margin_m
@@ -29,7 +28,7 @@ from loiter.guidance.entry.route import (
 from loiter.guidance.protocol import Command, State
 from loiter.kernel.angles import length
 from loiter.kernel.words import ABSENT, Side
-from loiter.planning.compass import heading_of
+from loiter.planning.compass import heading_of, heading_vector
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CONTROLS, TURNS, Aircraft, Orbit, Pose, Segment, Wind, sign_of, wind_from_velocity
 from loiter.planning.problem import segment
@@ -41,6 +40,10 @@ CHECK_S, SEARCH_S = 0.2, 2.0
 # A given path is planned anew where the aircraft is beside it by this share of the margin, or of a turn radius where
 # that is less, but not for less than a distance, metres, which gusts and noise explain.
 DRIFTED_SHARE, DRIFTED_RADII, LEAST_DRIFT_M = 0.6, 0.3, 2.5
+
+# A given path begins where the aircraft is if the heading differs by no more than this, degrees: in the second in which
+# that is corrected the aircraft comes 0.9 m beside the path at 20 m/s.
+START_DEG = 5.0
 
 # So too where the wind, as a share of the airspeed, or the tightest turn is another than planned.
 OTHER_WIND = 0.05
@@ -58,11 +61,32 @@ SAME_RADIUS = 1e-9
 LETTERS = {control: letter for letter, control in CONTROLS.items()}
 
 
+class SearchProblem(NamedTuple):
+    """A search for a clear entry: the arguments of `fastest_clear`."""
+
+    fence: Fence
+    pose: Pose
+    orbit: Orbit
+    aircraft: Aircraft
+    wind: Wind
+    margin_m: float
+
+
+class Answer(Protocol):
+    """What becomes of a search for a clear entry, which may go on in another process."""
+
+    def ready(self) -> bool:
+        """Whether the search has ended."""
+
+    def get(self) -> ClearEntry:
+        """The entry; raises the errors of `fastest_clear`."""
+
+
 class _Asked(NamedTuple):
-    """A search for a clear entry, which may go on in another process, and the state from which it begins."""
+    """A search for a clear entry, and the state from which it begins."""
 
     state: RelativeState
-    found: Future[ClearEntry]
+    found: Answer
 
 
 class FencedEntry(LoiterEntry):
@@ -72,7 +96,7 @@ class FencedEntry(LoiterEntry):
     of `clear_entry`, planned for the turn radius and the wind of the law, until the fastest entry from there is clear.
     It searches again where the aircraft has drifted off that path, and follows it further where it finds nothing.
     `problem` says that it has not found any clear entry, and is empty otherwise. With `background` searches go on in
-    `search_process`.
+    another process, `begin_search`. `first` is an entry that was found before: it is followed from the beginning.
 
     Raises the errors of `LoiterEntry`, and `InvalidArgument` for a circle that moves.
     """
@@ -86,6 +110,7 @@ class FencedEntry(LoiterEntry):
         fence: Fence,
         margin_m: float | None = None,
         background: bool = False,
+        first: Maneuver | None = None,
         **options: Any,
     ) -> None:
         super().__init__(orbit, aircraft, wind, **options)
@@ -95,8 +120,9 @@ class FencedEntry(LoiterEntry):
         self.problem = ""
         self._orbit, self._fence = orbit, fence
         self._margin_m = default_margin_m(orbit) if margin_m is None else not_negative("margin_m", margin_m, "metres")
-        self._submit: Callable[..., Future[ClearEntry]] = search_process().submit if background else _at_once
+        self._search = begin_search if background else _at_once
         self._asked: _Asked | None = None
+        self._first = first
         # Whether nothing was found with the turns that are planned.
         self._is_tight = False
         self._next_check_s = self._next_search_s = -inf
@@ -113,10 +139,13 @@ class FencedEntry(LoiterEntry):
 
     def _watch(self, now_s: float) -> None:
         """Take a clear entry that was found; check the present path, and ask for another if that is not clear."""
+        if self._first is not None:
+            first, self._first = self._first, None
+            self.follow(first, self._start_of(first))
         if is_holding(self._planning.plan.route):
             self._planning = self._planning._replace(path=no_path())
             return
-        if self._asked is not None and self._asked.found.done():
+        if self._asked is not None and self._asked.found.ready():
             asked, self._asked = self._asked, None
             self._take(asked)
         if self._asked is not None or now_s < self._next_check_s:
@@ -128,12 +157,22 @@ class FencedEntry(LoiterEntry):
         elif now_s >= self._next_search_s and not self._keeps_clear():
             self._next_search_s = now_s + SEARCH_S
             state = self._planning.response.state
-            pose, turns = self._here(state), self._memory.limits.turns
-            radius_m, margin_m = turns.planned_m, self._margin_at(pose)
-            if self._is_tight:
-                radius_m, margin_m = min(radius_m, TIGHT * turns.tightest_m), LESS_MARGIN * margin_m
-            problem = pose, self._orbit, self._turning(radius_m), self._wind, margin_m
-            self._asked = _Asked(state, self._submit(fastest_clear, self._fence, *problem))
+            problem = self.problem_at(self._here(state), is_tight=self._is_tight)
+            self._asked = _Asked(state, self._search(problem))
+
+    def problem_at(self, pose: Pose, *, is_tight: bool) -> SearchProblem:
+        """The search for a clear entry from a pose; if tight, with tighter turns and with less margin."""
+        turns, margin_m = self._memory.limits.turns, self._margin_at(pose)
+        radius_m = turns.planned_m
+        if is_tight:
+            radius_m, margin_m = min(radius_m, TIGHT * turns.tightest_m), LESS_MARGIN * margin_m
+        return SearchProblem(self._fence, pose, self._orbit, self._turning(radius_m), self._wind, margin_m)
+
+    def begins_at(self, pose: Pose, start: Pose) -> bool:
+        """Whether a pose is so near to the start of an entry that the entry can be followed from there."""
+        off_m = length(pose.east_m - start.east_m, pose.north_m - start.north_m)
+        off_deg = abs(remainder(pose.heading_deg - start.heading_deg, 360.0))
+        return off_m < self._drifted_m and off_deg < START_DEG
 
     # What is known at present.
 
@@ -207,10 +246,15 @@ class FencedEntry(LoiterEntry):
             tightest = self._fastest(self._turning(limits.turns.tightest_m))
             return self._is_clear(self._planned) and self._is_clear(tightest)
         route, turns = planning.plan.route, limits.turns
-        drifted_m = max(LEAST_DRIFT_M, min(DRIFTED_SHARE * self._margin_m, DRIFTED_RADII * turns.planned_m))
         wind = length(limits.wind_east_m_s - route.wind_east_m_s, limits.wind_north_m_s - route.wind_north_m_s)
-        on_path = abs(planning.response.offset.crosstrack) < drifted_m and wind < OTHER_WIND * turns.airspeed_m_s
+        on_path = abs(planning.response.offset.crosstrack) < self._drifted_m and wind < OTHER_WIND * turns.airspeed_m_s
         return on_path and turns.tightest_m <= route.turn_radius_m * (1.0 + SAME_RADIUS)
+
+    @property
+    def _drifted_m(self) -> float:
+        """How far beside its path an aircraft may be, metres, before another one is searched for."""
+        share_m = min(DRIFTED_SHARE * self._margin_m, DRIFTED_RADII * self._memory.limits.turns.planned_m)
+        return max(LEAST_DRIFT_M, share_m)
 
     @property
     def _planned(self) -> Maneuver:
@@ -236,7 +280,7 @@ class FencedEntry(LoiterEntry):
     def _take(self, asked: _Asked) -> None:
         """Follow the clear entry that was found."""
         try:
-            found = asked.found.result()
+            found = asked.found.get()
         except LoiterError as error:
             self.problem = "" if self._is_followed else f"its {error}"
             return
@@ -249,6 +293,15 @@ class FencedEntry(LoiterEntry):
             return
         self.problem, self._is_tight = "", False
         self.follow(found.maneuver, asked.state)
+
+    def _start_of(self, maneuver: Maneuver) -> RelativeState:
+        """The start of a maneuver as a state at the present time."""
+        pose, (wind_east, wind_north) = maneuver.start, maneuver.wind.velocity_m_s
+        speed = maneuver.aircraft.airspeed_m_s
+        hx, hy = (speed * part for part in heading_vector(pose.heading_deg))
+        x, y = pose.east_m - self._orbit.east_m, pose.north_m - self._orbit.north_m
+        now_s = self._planning.response.state.time_s
+        return RelativeState(now_s, x, y, hx + wind_east, hy + wind_north, hx, hy)
 
     def follow(self, maneuver: Maneuver, state: RelativeState) -> None:
         """Follow a maneuver of at most `MOST_PIECES` pieces, which begins at a state, as it is."""
@@ -280,27 +333,40 @@ class FencedEntry(LoiterEntry):
         self._planning = drop_search(planning)._replace(path=path, plan=present)
 
 
+def begin_search(problem: SearchProblem) -> Answer:
+    """The answer of a search in another process: in a thread it would hold up what flies meanwhile.
+
+    A search that still goes on when the program ends is ended too.
+    """
+    return _process().apply_async(fastest_clear, problem)
+
+
 @cache
-def search_process() -> ProcessPoolExecutor:
-    """A process for searches that take a second or more: in a thread they would hold up what flies meanwhile."""
-    return ProcessPoolExecutor(1, get_context("forkserver"), _ignore_signals)
+def _process() -> Pool:
+    return get_context("forkserver").Pool(1, _ignore_signals)
 
 
 def _ignore_signals() -> None:
-    """Leave the signals of a terminal to the program itself, which waits for the answers until it has ended."""
-    for name in ("SIGINT", "SIGTERM", "SIGHUP"):
+    """Leave the signals of a terminal to the program itself, whose flight needs the answers until it has ended."""
+    for name in ("SIGINT", "SIGHUP"):
         if hasattr(signal, name):
             signal.signal(getattr(signal, name), signal.SIG_IGN)
 
 
-def _at_once(search: Callable[..., ClearEntry], *arguments: object) -> Future[ClearEntry]:
-    """A search that is complete."""
-    done: Future[ClearEntry] = Future()
-    try:
-        done.set_result(search(*arguments))
-    except LoiterError as error:
-        done.set_exception(error)
-    return done
+class _Done(NamedTuple):
+    """The answer of a search that is complete."""
+
+    problem: SearchProblem
+
+    def ready(self) -> bool:
+        return True
+
+    def get(self) -> ClearEntry:
+        return fastest_clear(*self.problem)
+
+
+def _at_once(problem: SearchProblem) -> Answer:
+    return _Done(problem)
 
 
 def _piece(each: Segment, planned_m: float) -> PathPiece:

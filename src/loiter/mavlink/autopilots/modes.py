@@ -73,7 +73,8 @@ def px4_mode(main: int, sub: int = 0) -> int:
 
 OFFBOARD, HOLD = px4_mode(PX4_OFFBOARD), px4_mode(PX4_AUTO_MAIN, PX4_LOITER_SUB)
 
-# The modes in which autopilots fly their missions, by MAV_AUTOPILOT.
+# The modes in which autopilots hold a circle that was commanded, and fly their missions, by MAV_AUTOPILOT.
+HOLD_MODES: dict[int, int] = {Autopilot.ARDUPILOT: GUIDED, Autopilot.PX4: HOLD}
 MISSION_MODES: dict[int, int] = {
     Autopilot.ARDUPILOT: 10,
     Autopilot.PX4: px4_mode(PX4_AUTO_MAIN, PX4_MISSION_SUB),

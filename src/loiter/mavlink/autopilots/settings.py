@@ -6,6 +6,7 @@ law identifies it in flight. PX4 limits the rate of its bank setpoint to FW_PN_R
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from enum import Enum
 from math import inf, nan
 from typing import NamedTuple
@@ -39,9 +40,16 @@ LOSS_ACTIONS = {
 # Those of them after which PX4 circles or comes home: return, hold.
 SAFE_LOSS_ACTIONS = {3, 5}
 
+# The parameters for the largest bank: ArduPlane's in degrees, before version 4.5 in hundredths of them, and PX4's.
+BANK_LIMITS = ("ROLL_LIMIT_DEG", "LIM_ROLL_CD", "FW_R_LIM")
+
 # ArduPlane's parameters for the cruise airspeed: in metres per second since version 4.5, before in centimetres per
 # second.
 CRUISE, OLD_CRUISE = "AIRSPEED_CRUISE", "TRIM_ARSPD_CM"
+
+
+# ArduPlane's radius of circles that are commanded without one, metres.
+LOITER_RADIUS = "WP_LOITER_RAD"
 
 
 class Need(Enum):
@@ -57,6 +65,7 @@ PARAMETERS: dict[Autopilot, dict[tuple[str, ...], Need]] = {
         (CRUISE, OLD_CRUISE): Need.NEEDED,
         ("ROLL_LIMIT_DEG", "LIM_ROLL_CD"): Need.NEEDED,
         (BANK_LIMIT,): Need.NEEDED,
+        (LOITER_RADIUS,): Need.OPTIONAL,
         ("RLL2SRV_TCONST",): Need.WANTED,
         ("RLL2SRV_RMAX",): Need.WANTED,
         ("NAVL1_PERIOD",): Need.WANTED,
@@ -99,6 +108,44 @@ class AutopilotSettings(NamedTuple):
     def guided_bank_deg(self) -> float:
         """The limit of commanded banks, degrees."""
         return min(self.bank_limit_deg - BANK_MARGIN_DEG, STEEPEST_DEG)
+
+
+# The parameters for which the law of a flight is built: cruise airspeed, bank limit and roll response.
+LAW_PARAMETERS: dict[Autopilot, tuple[str, ...]] = {
+    Autopilot.ARDUPILOT: (CRUISE, OLD_CRUISE, *BANK_LIMITS, "RLL2SRV_TCONST", "RLL2SRV_RMAX"),
+    Autopilot.PX4: ("FW_AIRSPD_TRIM", *BANK_LIMITS, "FW_R_TC", "FW_R_RMAX", "FW_PN_R_SLEW_MAX"),
+}
+
+
+class ParameterChange(NamedTuple):
+    """A parameter that has another value than before."""
+
+    name: str
+    before: float
+    now: float
+
+    @property
+    def sentence(self) -> str:
+        """The change in words."""
+        return f"{self.name} was changed from {self.before:g} to {self.now:g} in flight"
+
+
+def change_of(names: Iterable[str], before: dict[str, float], now: dict[str, float]) -> ParameterChange | None:
+    """The first of some parameters that has another value now; one that was not known before has not."""
+    changes = (ParameterChange(name, before[name], now[name]) for name in names if name in before)
+    return next((change for change in changes if change.now != change.before), None)
+
+
+def law_change(
+    autopilot: Autopilot, before: dict[str, float], now: dict[str, float], bank_deg: float
+) -> ParameterChange | None:
+    """The first parameter for which a law that banks by so many degrees was built, and which has another value now.
+
+    A bank limit counts only where it is below that bank: the law does not use more.
+    """
+    is_allowed = bank_deg <= autopilot_settings(autopilot, now).guided_bank_deg
+    names = (name for name in LAW_PARAMETERS[autopilot] if not (is_allowed and name in BANK_LIMITS))
+    return change_of(names, before, now)
 
 
 def parameter_names(autopilot: Autopilot) -> list[str]:

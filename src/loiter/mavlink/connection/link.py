@@ -17,7 +17,8 @@ from time import monotonic
 from typing import Any, NamedTuple
 
 from loiter.errors import InvalidArgument, LinkFailed, MissingPackage, positive
-from loiter.mavlink.connection.enumerations import autopilot_name
+from loiter.io.missions.items import MavCommand
+from loiter.mavlink.connection.enumerations import ACCEPTED, autopilot_name
 
 # Our own ids: MAV_COMP_ID_MISSIONPLANNER, of a system that is not 255. ArduPilot takes 255 for its ground station, and
 # would assume that the station is still there as long as we send heartbeats.
@@ -36,6 +37,9 @@ MISSION, FENCE = 0, 1
 
 # MAV_TYPE_GCS; MAV_STATE_STANDBY and MAV_STATE_ACTIVE: a program that guides a vehicle is active once it commands.
 GROUND_STATION, STANDBY, ACTIVE = 6, 3, 4
+
+# The commands to hold a circle.
+HOLDS = {int(MavCommand.DO_REPOSITION), int(MavCommand.DO_ORBIT)}
 
 # Seconds without progress after which a vehicle is given up: time to repeat a request ten times. If one packet of five
 # is lost each way, all ten fail once in 27,000 times.
@@ -84,7 +88,8 @@ class Link:
 
     With `heartbeats` a heartbeat is sent every second. `on_message` is called with every message received and the time.
     `others` are the other vehicles whose heartbeats were received, `ground_stations` the ids of ground stations;
-    `rivals` says whether another program guides a vehicle. `status` is the MAV_STATE in our heartbeats.
+    `rivals` says whether another program guides a vehicle, `commanders` whether the vehicle has told another station
+    that it holds a circle as that has commanded. `status` is the MAV_STATE in our heartbeats.
     """
 
     def __init__(
@@ -99,7 +104,7 @@ class Link:
         self.on_message = on_message
         self.others: set[Vehicle] = set()
         self.ground_stations: set[int] = set()
-        self.rivals = False
+        self.rivals = self.commanders = False
         # What the messages of the mission protocol transfer: missions, fences and rally points have the same ones.
         self.mission_type = MISSION
         self.status = ACTIVE
@@ -153,7 +158,10 @@ class Link:
 
     def _process(self, message: Any) -> bool:
         """Process a message that has arrived; returns whether it is one of the vehicle, to us or to all."""
-        ours = self._from_vehicle(message) and self._to_us(message)
+        is_sent = self._from_vehicle(message)
+        ours = is_sent and self._to_us(message)
+        if is_sent and not ours and message.get_type() == "COMMAND_ACK":
+            self.commanders |= message.command in HOLDS and message.result == ACCEPTED
         if ours:
             self.on_message(message, monotonic())
         return ours

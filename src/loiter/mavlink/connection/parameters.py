@@ -6,6 +6,7 @@ A vehicle does not answer requests for a parameter that it does not have.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from itertools import cycle
 from math import inf
 from struct import calcsize, pack, unpack
 from time import monotonic
@@ -18,6 +19,10 @@ from loiter.mavlink.connection.link import Link, dialect
 # in 165 times.
 REPEAT_S, TRIES = 0.5, 5
 
+# Seconds between requests in flight, for one parameter after the other: autopilots tell of a change by themselves, but
+# the message may be lost, and a script's change is not told.
+AGAIN_S = 0.5
+
 # The integer types of MAV_PARAM_TYPE, in the notation of `struct`, whose bytes PX4 sends in the field for the float.
 _BYTEWISE = {1: "<B", 2: "<b", 3: "<H", 4: "<h", 5: "<I", 6: "<i"}
 
@@ -29,6 +34,7 @@ class Parameters:
         self.known: dict[str, float] = {}
         self._names, self._autopilot = names, autopilot
         self._next, self._tries = -inf, 0
+        self._again, self._next_again = cycle(names), -inf
 
     @property
     def done(self) -> bool:
@@ -48,6 +54,16 @@ class Parameters:
         to = link.vehicle.system, link.vehicle.component
         for name in (name for name in self._names if name not in self.known):
             # The index -1 means: by name.
+            link.send(dialect().MAVLink_param_request_read_message(*to, name.encode(), -1))
+
+    def request_again(self, link: Link, now: float) -> None:
+        """Request the next of the known parameters, if that is due: its value may have changed."""
+        if now < self._next_again or not self.known:
+            return
+        self._next_again = now + AGAIN_S
+        name = next(self._again)
+        if name in self.known:
+            to = link.vehicle.system, link.vehicle.component
             link.send(dialect().MAVLink_param_request_read_message(*to, name.encode(), -1))
 
     def wait(self, link: Link, enough: Callable[[dict[str, float]], bool]) -> dict[str, float]:

@@ -85,7 +85,7 @@ def guide_streams(autopilot: Autopilot) -> list[Stream]:
         ]
     else:
         fence, wind = Stream("FENCE_STATUS", 2, STATE_HZ), Stream("WIND", 12, WIND_HZ)
-        own = [fence, wind, Stream("EKF_STATUS_REPORT", 12, STATE_HZ)]
+        own = [fence, wind, Stream("EKF_STATUS_REPORT", 12, STATE_HZ), Stream("NAV_CONTROLLER_OUTPUT", 2, STATE_HZ)]
     return streams + own
 
 

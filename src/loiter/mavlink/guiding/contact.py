@@ -139,6 +139,7 @@ class Contact:
     def request_in_flight(self, now: float) -> None:
         """Send the requests that are due in flight: for streams that have become slow, and for the round trip time."""
         self.streams.request(self.link, self.telemetry, now)
+        self.parameters.request_again(self.link, now)
         self.round_trip.request(self.link, now)
         self.monitor.unanswered_s = self.round_trip.unanswered_s()
 

@@ -5,31 +5,51 @@ from __future__ import annotations
 from collections.abc import Callable, Generator
 from contextlib import suppress
 from dataclasses import replace
-from math import inf, isfinite, nan
+from math import hypot, inf, isfinite, nan
 from time import monotonic, time
 
-from loiter.errors import LinkFailed, LoiterError, clause
-from loiter.guidance.entry.fenced_entry import FencedEntry
+from loiter.errors import InvalidArgument, LinkFailed, LoiterError, clause
+from loiter.fences import ClearEntry
+from loiter.fences.fence import checked_margin_m
+from loiter.guidance.entry.fenced_entry import FencedEntry, SearchProblem
 from loiter.guidance.entry.loiter_entry import LoiterEntry
+from loiter.guidance.entry.route import MOST_PIECES
 from loiter.guidance.entry.slot_entry import SlotEntry
 from loiter.guidance.estimation.turn_fits import bounded_turn_ratio
 from loiter.guidance.protocol import Command, Phase, State
-from loiter.guidance.vehicle import VehicleEstimates, clip
+from loiter.guidance.vehicle import VehicleEstimates, bank_at_rate, clip
 from loiter.mavlink.autopilots.acceleration_sign import AccelerationSign, is_release, sign_of_version
-from loiter.mavlink.autopilots.modes import GUIDED, HOLD, OFFBOARD
+from loiter.mavlink.autopilots.modes import GUIDED, HOLD, HOLD_MODES, OFFBOARD
 from loiter.mavlink.autopilots.own_guidance import guidance_of
+from loiter.mavlink.autopilots.settings import (
+    LOITER_RADIUS,
+    AutopilotSettings,
+    autopilot_settings,
+    change_of,
+    law_change,
+)
 from loiter.mavlink.autopilots.steering import AccelerationSteering, CourseHold, RollSteering, Steering
 from loiter.mavlink.connection.command import PendingCommand, hold_command, mode_command
 from loiter.mavlink.connection.link import ACTIVE
 from loiter.mavlink.guiding.contact import STEP_S, Contact
-from loiter.mavlink.guiding.hand_over import SentCircle, last_bank_deg, sent_circle
+from loiter.mavlink.guiding.fall_back import FallBack, OwnGuidance, circles_beside, fall_back
+from loiter.mavlink.guiding.hand_over import KEPT_S, SentCircle, last_bank_deg, sent_circle
 from loiter.mavlink.guiding.holdability import HoldabilityWatch
 from loiter.mavlink.guiding.monitor import StopReason
-from loiter.mavlink.guiding.preparation import FlightSetup, GuideRequest, choose, prepare
+from loiter.mavlink.guiding.preparation import (
+    LONGEST_SEARCH_S,
+    FlightSetup,
+    GuideRequest,
+    Search,
+    choose,
+    pose_ahead,
+    prepare,
+)
 from loiter.mavlink.guiding.report import GuideReport, Stage
 from loiter.mavlink.guiding.settling import LASTING_S, PRESENT_S, SteadyHoldDetector
 from loiter.mavlink.guiding.summary import loss_consequence, summary
-from loiter.planning.model import Turn
+from loiter.planning.maneuver import Maneuver
+from loiter.planning.model import Orbit, Turn, sign_of
 from loiter.planning.slot import Slot
 
 # Seconds for a command to be confirmed: the fall-back circle, PX4's offboard mode, the hand-over.
@@ -59,6 +79,13 @@ WIND_S = 0.5
 # The law has twice the time of its first plan and this, seconds, until the circle is held steadily.
 HAND_OVER_S = 180.0
 
+# An entry clear of a fence is searched for so often; it begins so many seconds ahead at first, and when it is flown the
+# first command is given so many seconds before: the circle is accepted meanwhile, and the aircraft rolls.
+SEARCHES, FIRST_AHEAD_S, BEGIN_S = 5, 1.5, 0.4
+
+# Seconds between checks of the own way to the fall-back circle.
+FALL_BACK_S = 1.0
+
 # What a refused circle may mean.
 OUTSIDE_FENCE = "; its fence is on, and the circle may be outside"
 
@@ -85,6 +112,8 @@ class GuidedFlight:
         self._contact, self._request, self._period_s, self._began = contact, request, period_s, began
         self._monitor, self._modes = contact.monitor, contact.monitor.modes
         self._setup: FlightSetup
+        # The parameters of the vehicle when the law was made.
+        self._built_for: dict[str, float]
         self._law: LoiterEntry
         self._holdability: HoldabilityWatch
         self._steady = SteadyHoldDetector(self.orbit)
@@ -92,6 +121,12 @@ class GuidedFlight:
         # What has been done: whether the fall-back circle was commanded and accepted, whether banks are commanded.
         self._commanded = self._accepted = self._steered = False
         self._accepted_at = inf
+        # The circle to which the vehicle is commanded back, the one before, and when it is due to be chosen again; the
+        # entry clear of the fence that is flown from the first command on.
+        self._circle = self._former_circle = self.orbit
+        self._next_fall_back = -inf
+        self._new_fall_back: PendingCommand | None = None
+        self._entry: Maneuver | None = None
         # How often the vehicle was found to bank opposite to its commands.
         self._reversals = 0
         self._notices: list[str] = []
@@ -119,8 +154,10 @@ class GuidedFlight:
     def _begin(self, setup: FlightSetup) -> None:
         """Take what the flight begins with, and make the law; raises errors before anything is commanded."""
         self._setup, self.orbit, self._state = setup, setup.orbit, setup.state
+        self._circle = self.orbit
         self._notices += setup.notices
         self._steady = SteadyHoldDetector(self.orbit)
+        self._built_for = dict(self._contact.parameters.known)
         self._law = self._new_law()
         self._contact.steering = self._new_steering()
 
@@ -146,9 +183,60 @@ class GuidedFlight:
         request = self._request._replace(altitude_m=self._setup.altitude_m)
         if contact.fence is not None:
             request = request._replace(orbit=self.orbit)
-        self._begin(choose(contact, request, self._setup.settings)._replace(notices=()))
+        settings = autopilot_settings(contact.autopilot, contact.parameters.known)
+        self._begin(choose(contact, request, settings)._replace(notices=()))
+        if isinstance(self._law, FencedEntry):
+            yield from self._find_entry(request, settings)
         self._stage = Stage.FALL_BACK
         self._plan_report(monotonic())
+
+    def _find_entry(self, request: GuideRequest, settings: AutopilotSettings) -> Generator[GuideReport, None, None]:
+        """Search for a clear entry from where the vehicle will be when it is found, and wait until it is there.
+
+        Raises `LinkFailed` where none is found, or the vehicle is elsewhere by then each time.
+        """
+        contact, ahead_s, is_tight = self._contact, FIRST_AHEAD_S, False
+        for _ in range(SEARCHES):
+            self._begin(choose(contact, request, settings)._replace(notices=()))
+            law, state, began = self._law, self._state, monotonic()
+            assert isinstance(law, FencedEntry)
+            start = pose_ahead(contact, state, ahead_s, self._setup.wind)
+            found = yield from self._searched(law.problem_at(start, is_tight=is_tight))
+            took_s = monotonic() - began
+            if found.maneuver is None or len(found.maneuver.segments) > MOST_PIECES:
+                if is_tight:
+                    raise LinkFailed(f"{contact.name} cannot be guided: {clause(found.sentence)}")
+                is_tight = True
+            while self._measure().time_s < state.time_s + ahead_s - BEGIN_S:
+                yield from self._wait()
+            here = pose_ahead(contact, self._state, BEGIN_S, self._setup.wind)
+            if found.maneuver is not None and took_s <= ahead_s and law.begins_at(here, start):
+                self._entry = None if found.is_fastest else found.maneuver
+                return
+            # The next one begins where the vehicle will be if that search takes as long and half as much again.
+            ahead_s = min(max(FIRST_AHEAD_S, 1.5 * took_s + BEGIN_S), LONGEST_SEARCH_S)
+        elsewhere = f"was elsewhere than expected each time when an entry was found, {SEARCHES} times"
+        raise LinkFailed(f"{contact.name} cannot be guided clear of the fence: it {elsewhere}")
+
+    def _searched(self, problem: SearchProblem) -> Generator[GuideReport, None, ClearEntry]:
+        """The answer of a search for a clear entry; the vehicle is listened to meanwhile."""
+        search = Search(self._contact, problem)
+        while not search.ended(monotonic()):
+            yield from self._wait()
+        try:
+            return search.found
+        except InvalidArgument as error:
+            raise LinkFailed(f"{self._contact.name} cannot be guided: its {error}") from error
+
+    def _wait(self) -> Generator[GuideReport, None, None]:
+        """Listen until the next state, before the first command."""
+        now = self._contact.listen()
+        self._check(now)
+        self._check_mode()
+        self._contact.request_in_flight(now)
+        if now >= self._next_report:
+            self._measure()
+            yield self._take_report(now)
 
     def _is_confirmed(self) -> bool:
         """Whether the flight may begin; a vehicle of a fleet takes its slot then."""
@@ -190,6 +278,7 @@ class GuidedFlight:
             fence=fence,
             margin_m=self._request.margin_m,
             background=True,
+            first=self._entry,
             roll=p.settings.roll,
             delay_s=delay_s,
         )
@@ -229,15 +318,84 @@ class GuidedFlight:
                 yield self._take_report(now)
 
     def _fall_back(self) -> Generator[GuideReport, None, None]:
-        """Command the fall-back circle, and wait until the vehicle has accepted it."""
+        """Command the fall-back circle, and wait until the vehicle has accepted it.
+
+        Raises `LinkFailed` where the vehicle would fly through the fence to each that it could be.
+        """
+        if self._contact.fence is not None:
+            chosen = self._clear_fall_back([self.orbit], 0.0)
+            if not chosen.is_clear:
+                through = "by its own guidance it would fly through the fence, onto the circle and onto any beside it"
+                raise LinkFailed(f"{self._contact.name} cannot be guided: {through}")
+            self._take_circle(chosen.circle)
         pending = self._contact.pending = self._hold_command()
         self._commanded, self._contact.link.status = True, ACTIVE
+        self._contact.link.commanders = False  # what was commanded before is taken over
         self._monitor.circle_altitude_m = self._setup.altitude_m
         self._modes.expect(self._hold_mode)
         # PX4 accepts the offboard mode only while setpoints arrive: they begin here.
         yield from self._await(pending)
         self._accepted, self._accepted_at = True, monotonic()
         self._modes.accepted(self._accepted_at)
+
+    def _clear_fall_back(self, circles: list[Orbit], kept_s: float, bank_deg: float | None = None) -> FallBack:
+        """The first of some circles, and of those beside the vehicle, onto which its own guidance keeps clear.
+
+        The vehicle keeps its bank for some seconds before: the present one, or that given and for a circle beside it
+        that of the circle.
+        """
+        contact, state, p = self._contact, self._measure(), self._setup
+        fence, own = contact.fence, OwnGuidance(p.aircraft, p.wind, guidance_of(contact.parameters.known), kept_s)
+        assert fence is not None  # the caller has checked
+        beside = [*circles_beside(state, self.orbit, p.aircraft)]
+        states = [state if bank_deg is None else state._replace(bank_deg=bank_deg)] * len(circles)
+        turning = [state if bank_deg is None else state._replace(bank_deg=self._circle_bank_deg(c)) for c in beside]
+        margin_m = checked_margin_m(self.orbit, self._request.margin_m)
+        return fall_back(fence, margin_m, [*circles, *beside], [*states, *turning], own)
+
+    def _circle_bank_deg(self, circle: Orbit) -> float:
+        """The bank, degrees, that holds a circle in still air."""
+        V = self._setup.aircraft.airspeed_m_s
+        return sign_of(circle.turn) * bank_at_rate(V / circle.radius_m, V)
+
+    def _take_circle(self, circle: Orbit) -> None:
+        """Take a circle for that to which the vehicle is commanded back, and say so where it is another one."""
+        former, self._circle = self._circle, circle
+        if circle != self.orbit:
+            self._notices.append(
+                f"Its own way to the circle leads through the fence: the fall-back circle is one {self._beside}."
+            )
+        elif former != circle:
+            self._notices.append("Its own way to the circle is clear of the fence: that is the fall-back circle now.")
+
+    @property
+    def _beside(self) -> str:
+        """Where a fall-back circle is that is not the circle itself, in words."""
+        off_m = hypot(self._circle.east_m - self.orbit.east_m, self._circle.north_m - self.orbit.north_m)
+        return f"of {self._circle.radius_m:.0f} m, {off_m:.0f} m from the centre of the circle"
+
+    def _update_fall_back(self, now: float) -> None:
+        """Command ArduPlane another fall-back circle where its own way to the present one is not clear of the fence.
+
+        It flies there if the link dies, with the last bank for 3 s. PX4 forgets its circle when it enters OFFBOARD.
+        """
+        contact, pending = self._contact, self._new_fall_back
+        if contact.fence is None or contact.flies_px4 or self._stage == Stage.HANDING_OVER:
+            return
+        if pending is not None and not pending.final:
+            pending.send(contact.link, now)
+        elif pending is not None:
+            self._circle = self._circle if pending.accepted else self._former_circle
+            self._new_fall_back, self._accepted_at = None, now
+        elif now >= self._next_fall_back:
+            self._next_fall_back = now + FALL_BACK_S
+            circles = [self.orbit] if self._circle == self.orbit else [self.orbit, self._circle]
+            chosen = self._clear_fall_back(circles, KEPT_S)
+            if chosen.is_clear and chosen.circle != self._circle:
+                self._former_circle = self._circle
+                self._take_circle(chosen.circle)
+                self._new_fall_back = contact.pending = self._hold_command()
+                self._accepted_at = inf
 
     def _enter_offboard(self) -> Generator[GuideReport, None, None]:
         """Change PX4's mode to offboard, once a heartbeat has shown the hold: the pilot may have taken over.
@@ -299,7 +457,7 @@ class GuidedFlight:
 
     def _hand_over(self) -> GuideReport:
         """Hand the vehicle over to its own hold; returns the last report."""
-        self._stage = Stage.HANDING_OVER
+        self._stage, self._circle = Stage.HANDING_OVER, self.orbit
         if not self._command_hold(measured=True):
             raise GuidingStopped(
                 StopReason("the vehicle did not confirm the circle on which it is handed over", ours=False)
@@ -324,7 +482,7 @@ class GuidedFlight:
         deadline, telemetry, target = lost_at + timeout_s, self._contact.telemetry, self._contact.own_target
         while telemetry.arrived("HEARTBEAT") < lost_at and monotonic() < deadline:
             self._contact.listen()
-        elsewhere = target.arrived > lost_at and target.difference(self.orbit, self._setup.altitude_m)
+        elsewhere = target.arrived > lost_at and target.difference(self._circle, self._setup.altitude_m)
         return telemetry.arrived("HEARTBEAT") >= lost_at and self._modes.mode == GUIDED and not elsewhere
 
     def request_again(self) -> GuideRequest:
@@ -337,11 +495,15 @@ class GuidedFlight:
         if not self._commanded:
             more = " more" if self.resumed else ""
             return stop.reason if self._request.dry_run else f"{stop.reason}; nothing{more} was commanded"
+        self._new_fall_back, self._next_fall_back = None, inf
         if stop.ours:
             try:
                 self._check_still_ours(stop)
+                if self._contact.fence is not None and stop.measured:
+                    kept_s = KEPT_S if self._steered and not self._contact.flies_px4 else 0.0
+                    self._circle = self._clear_fall_back([self.orbit], kept_s, 0.0).circle
                 if self._command_hold(measured=stop.measured):
-                    return f"{stop.reason}: {self._end}, and {self._contact.name} flies the fall-back circle"
+                    return f"{stop.reason}: {self._end}, and {self._contact.name} {self._flies_fall_back}"
             except (LoiterError, GuidingStopped) as failure:
                 stop = StopReason(f"{stop.reason}, and then {failure}", ours=False)
         return f"{stop.reason}: {self._end}, nothing more is sent, and {self._consequence()}{self._texts}"
@@ -391,10 +553,17 @@ class GuidedFlight:
         if elsewhere:
             return f"{contact.name} flies in {self._modes.name} {elsewhere}"
         if self._steered and self._modes.mode in (GUIDED, OFFBOARD):
-            return loss_consequence(contact, self._setup)
+            return loss_consequence(contact)
         if elsewhere is None and self._modes.mode == HOLD and self._steered:
             return f"{contact.name} flies in {self._modes.name} and does not report where"
-        return f"{contact.name} flies the fall-back circle"
+        return f"{contact.name} {self._flies_fall_back}"
+
+    @property
+    def _flies_fall_back(self) -> str:
+        """What the vehicle does that has been commanded back, in words."""
+        if self._circle == self.orbit:
+            return "flies the fall-back circle"
+        return f"flies a circle {self._beside}, to which its own way would lead through the fence"
 
     def _observe_elsewhere(self) -> str | None:
         """Where the vehicle flies by its own guidance, in words; "" on the circle, None if it does not report that.
@@ -413,7 +582,7 @@ class GuidedFlight:
                     began = oldest = now
         if is_offboard or target.arrived < oldest:
             return None
-        return target.difference(self.orbit, self._setup.altitude_m)
+        return target.difference(self._circle, self._setup.altitude_m)
 
     def _command_hold(self, *, measured: bool) -> bool:
         """Command the circle, and keep the vehicle steered until it has confirmed it; returns whether it has.
@@ -429,6 +598,7 @@ class GuidedFlight:
             if monotonic() > deadline or (pending.final and not pending.accepted):
                 return False
             pending.send(contact.link, monotonic())
+            contact.own_target.forget_radius()
             if pending.accepted:
                 contact.request_heartbeat(monotonic())
             levelled = self._keep_steering(measured=measured, levelled=levelled)
@@ -447,6 +617,9 @@ class GuidedFlight:
         """
         contact, limit_deg = self._contact, self._setup.aircraft.max_bank_deg
         if contact.flies_px4 or contact.steering is None or limit_deg is None:
+            return
+        if self._circle != self.orbit:
+            contact.steering.send(contact.link, self._circle_bank_deg(self._circle), self._state.bank_deg, monotonic())
             return
         on_circle = self._report.phase == Phase.HOLD
         mean, estimates = self._steady.mean, self._measured_estimates(PRESENT_S)
@@ -475,7 +648,7 @@ class GuidedFlight:
         assert steering is not None  # made by `_begin`
         if steering.reversals != self._reversals:
             # What was flown until then was not what the law had commanded: it identifies the vehicle from now on.
-            self._reversals, self._law = steering.reversals, self._new_law()
+            self._reversals, self._law = steering.reversals, self._new_law()  # from the same entry
         self._law.command_limit_deg = steering.limit_deg
         command = self._law.step(state, dt)
         assert self._setup.aircraft.max_bank_deg is not None  # the aircraft is made with a bank limit
@@ -492,6 +665,8 @@ class GuidedFlight:
             self._stage = Stage.HOLDING if command.phase == Phase.HOLD else Stage.JOINING
         self._monitor.command_deg, self._monitor.bank_deg = sent_deg, state.bank_deg
         self._check_wind(now)
+        self._note_radius()
+        self._update_fall_back(now)
         self._contact.request_in_flight(now)
         self._record_step(state, command._replace(bank_deg=sent_deg), now)
 
@@ -527,6 +702,13 @@ class GuidedFlight:
             if self._holdability.warning and not warned:
                 self._notices.append(self._holdability.warning)
 
+    def _note_radius(self) -> None:
+        """Note that a ground station has set another radius of circles, which does not change the one that is flown."""
+        known = self._contact.parameters.known
+        if change := change_of([LOITER_RADIUS], self._built_for, known):
+            self._built_for[LOITER_RADIUS] = change.now
+            self._notices.append(f"{change.sentence}: the circle of {self.orbit.radius_m:g} m is flown all the same.")
+
     def _measure(self) -> State:
         """The last measured state; the one before where the last messages give none."""
         self._state = self._contact.state() or self._state
@@ -538,7 +720,22 @@ class GuidedFlight:
 
     def _reason(self, now: float) -> StopReason | None:
         """The reason to stop, or None."""
-        return self._monitor.check(now) or self._other_commander() or self._beyond_fence() or self._blocked()
+        return (
+            self._monitor.check(now)
+            or self._other_commander()
+            or self._beyond_fence()
+            or self._blocked()
+            or self._other_law()
+        )
+
+    def _other_law(self) -> StopReason | None:
+        """That a parameter for which the law was built has another value now."""
+        if not self._commanded:
+            return None
+        contact, limit_deg = self._contact, self._setup.aircraft.max_bank_deg
+        assert limit_deg is not None  # the aircraft is made with a bank limit
+        change = law_change(contact.autopilot, self._built_for, contact.parameters.known, limit_deg)
+        return StopReason(change.sentence) if change else None
 
     def _blocked(self) -> StopReason | None:
         """That no entry is found that stays clear of the fence."""
@@ -547,8 +744,8 @@ class GuidedFlight:
 
     def _beyond_fence(self) -> StopReason | None:
         """That the vehicle is on the wrong side of a zone of the fence against which its plan was checked."""
-        fence = self._contact.fence
-        zone = None if fence is None else fence.violated(self._state.east_m, self._state.north_m)
+        fence, state = self._contact.fence, self._contact.state()
+        zone = None if fence is None or state is None else fence.violated(state.east_m, state.north_m)
         if zone is None:
             return None
         return StopReason(f"the vehicle has {'left' if zone.inclusion else 'entered'} the zone {zone.name!r}")
@@ -558,9 +755,14 @@ class GuidedFlight:
         contact, target = self._contact, self._contact.own_target
         if contact.link.rivals:
             return StopReason("another program guides the vehicle too", ours=False)
-        if contact.flies_px4 or target.arrived < self._accepted_at + TARGET_CHANGE_S or self._modes.mode != GUIDED:
+        if self._commanded and contact.link.commanders:
+            return StopReason("another station has commanded the vehicle to hold another circle", ours=False)
+        if contact.flies_px4 or self._modes.mode != GUIDED:
             return None
-        elsewhere = target.difference(self.orbit, self._setup.altitude_m)
+        if target.arrived < self._accepted_at + TARGET_CHANGE_S:
+            target.forget_radius()
+            return None
+        elsewhere = target.difference(self._circle, self._setup.altitude_m) or target.other_radius
         return StopReason(f"another station has sent the vehicle {elsewhere}", ours=False) if elsewhere else None
 
     def _take_report(self, now: float) -> GuideReport:
@@ -594,7 +796,7 @@ class GuidedFlight:
 
     @property
     def _hold_mode(self) -> int:
-        return HOLD if self._contact.flies_px4 else GUIDED
+        return HOLD_MODES[self._contact.autopilot]
 
     def _measured_estimates(self, time_s: float) -> VehicleEstimates:
         """The estimates of the law, with what is measured on the circle if it was held.
@@ -611,8 +813,8 @@ class GuidedFlight:
         """The command to hold the circle, with the circle that the vehicle flies as the orbit."""
         altitude_m = self._setup.altitude_m
         estimates = self._measured_estimates(LASTING_S) if self._steered else None
-        circle = self._sent = sent_circle(self.orbit, altitude_m, self._contact.parameters.known, estimates)
+        circle = self._sent = sent_circle(self._circle, altitude_m, self._contact.parameters.known, estimates)
         latitude_deg, longitude_deg = self._request.frame.to_geodetic(circle.east_m, circle.north_m)
         place = float(latitude_deg), float(longitude_deg), altitude_m
-        message = hold_command(self._contact.link.vehicle, place, circle.radius_m, self.orbit.turn)
+        message = hold_command(self._contact.link.vehicle, place, circle.radius_m, self._circle.turn)
         return PendingCommand(message, "hold the circle", REPEAT_S)

@@ -4,21 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from math import isfinite
+from math import degrees, isfinite
 from time import monotonic
 from typing import Literal, NamedTuple, TypeAlias
 
 from loiter.errors import InvalidArgument, LinkFailed, clause
-from loiter.fences import ClearEntry, Fence, PlacedFence, clear_entry
+from loiter.fences import ClearEntry, Fence, PlacedFence
+from loiter.fences.fence import checked_margin_m
 from loiter.geo import LocalFrame
 from loiter.geo.atmosphere import eas2tas_squared
-from loiter.guidance.entry.fenced_entry import search_process
+from loiter.guidance.entry.fenced_entry import SearchProblem, begin_search
 from loiter.guidance.entry.limits import NEGLIGIBLE_WIND
 from loiter.guidance.entry.slot_entry import BAND
 from loiter.guidance.protocol import State
 from loiter.mavlink.autopilots.readiness import refusal
 from loiter.mavlink.autopilots.settings import AutopilotSettings, Need, autopilot_settings, missing
 from loiter.mavlink.autopilots.steering import LOCAL_POSITION, LOCAL_POSITION_S
+from loiter.mavlink.connection.dead_reckoning import GroundMotion, motion_after
 from loiter.mavlink.connection.link import not_found
 from loiter.mavlink.guiding.contact import Contact
 from loiter.mavlink.guiding.measurements import AirspeedSource
@@ -26,6 +28,7 @@ from loiter.mavlink.guiding.monitor import LEAST_HEIGHT_M, LEAST_HZ
 from loiter.mavlink.missions.fences import receive_fence
 from loiter.planning.compass import wrapped
 from loiter.planning.model import (
+    CALM,
     Aircraft,
     Orbit,
     Pose,
@@ -44,6 +47,15 @@ OTHERS_S = 1.1
 
 # Seconds for everything that is needed to arrive, and for PX4's version, without which the flight begins too.
 PREPARE_S, VERSION_S = 8.0, 1.5
+
+# Seconds for a search for an entry that stays clear of a fence: the vehicle flies on meanwhile.
+LONGEST_SEARCH_S = 12.0
+
+# What is said of the time for that.
+AGAIN = (
+    "After the answer an entry is searched for from where the vehicle will be by then: until that is found, "
+    f"for up to {LONGEST_SEARCH_S:g} s, nothing is commanded."
+)
 
 # The circle counts as impossible to hold in the wind if one that is wider by this factor is: an estimate has errors,
 # and an aircraft that drifts outside a little is not in danger.
@@ -154,13 +166,17 @@ def _fenced(contact: Contact, fence: Fence, request: GuideRequest, chosen: Fligh
     Raises `LinkFailed` where none is found.
     """
     state = chosen.state
-    wind = chosen.wind
-    if wind is not None and wind.speed_m_s < NEGLIGIBLE_WIND * chosen.aircraft.airspeed_m_s:
-        wind = None  # the law plans as in still air too
+    wind = CALM if chosen.wind is None else chosen.wind
+    if wind.speed_m_s < NEGLIGIBLE_WIND * chosen.aircraft.airspeed_m_s:
+        wind = CALM  # the law plans as in still air too
     start, scene = Pose(state.east_m, state.north_m, wrapped(state.heading_deg)), (chosen.aircraft, wind)
+    margin_m = checked_margin_m(request.orbit, request.margin_m)
     try:
-        found = _while_listening(contact, clear_entry, fence, start, request.orbit, *scene, request.margin_m)
-        refused = fence.check(plan(start, request.orbit, *scene), request.margin_m)
+        search = Search(contact, SearchProblem(fence, start, request.orbit, *scene, margin_m))
+        while not search.ended(monotonic()):
+            contact.request_in_flight(contact.listen())
+        found = search.found
+        refused = fence.check(plan(start, request.orbit, *scene), margin_m)
     except InvalidArgument as error:
         raise LinkFailed(f"{contact.name} cannot be guided: its {error}") from error
     if found.maneuver is None or found.check is None:
@@ -168,15 +184,35 @@ def _fenced(contact: Contact, fence: Fence, request: GuideRequest, chosen: Fligh
         raise LinkFailed(f"{contact.name} cannot be guided: {'; '.join(reasons)}")
     more = () if found.is_fastest else (found.sentence,)
     orbit = replace(chosen.orbit, turn=found.maneuver.turn)
-    return chosen._replace(orbit=orbit, notices=(*chosen.notices, found.check.sentence(request.frame), *more))
+    said = found.check.sentence(request.frame), *more, AGAIN
+    return chosen._replace(orbit=orbit, notices=(*chosen.notices, *said))
 
 
-def _while_listening(contact: Contact, search: Callable[..., ClearEntry], *arguments: object) -> ClearEntry:
-    """The answer of a search, which may take a second or more: messages are received meanwhile."""
-    found = search_process().submit(search, *arguments)
-    while not found.done():
-        contact.request_in_flight(contact.listen())
-    return found.result()
+class Search:
+    """A search for a clear entry, while which the vehicle flies on and its messages must be received."""
+
+    def __init__(self, contact: Contact, problem: SearchProblem) -> None:
+        self._name, self._answer, self._began = contact.name, begin_search(problem), monotonic()
+
+    def ended(self, now: float) -> bool:
+        """Whether there is an answer; raises `LinkFailed` where it takes too long."""
+        if not self._answer.ready() and now > self._began + LONGEST_SEARCH_S:
+            late = f"no entry that stays clear of the fence was found in {LONGEST_SEARCH_S:g} s"
+            raise LinkFailed(f"{self._name} cannot be guided: {late}")
+        return self._answer.ready()
+
+    @property
+    def found(self) -> ClearEntry:
+        """The answer; raises the errors of `clear_entry`."""
+        return self._answer.get()
+
+
+def pose_ahead(contact: Contact, state: State, after_s: float, wind: Wind | None) -> Pose:
+    """Where the vehicle will be some seconds after a state, if it keeps its rate of turn."""
+    rate = contact.telemetry.yaw_rate
+    here = GroundMotion(state.east_m, state.north_m, state.velocity_east_m_s, state.velocity_north_m_s)
+    there = motion_after(here, rate, after_s, CALM if wind is None else wind)
+    return Pose(there.east_m, there.north_m, wrapped(state.heading_deg + degrees(rate * after_s)))
 
 
 def _holdable_wind(orbit: Orbit, aircraft: Aircraft, wind: Wind | None) -> Wind | None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import isnan
 
 from loiter.mavlink.autopilots.modes import GUIDED
+from loiter.mavlink.autopilots.settings import autopilot_settings
 from loiter.mavlink.guiding.contact import Contact
 from loiter.mavlink.guiding.preparation import FlightSetup
 
@@ -19,7 +20,7 @@ def summary(contact: Contact, setup: FlightSetup, turn: str) -> tuple[str, ...]:
     return (
         f"{_from_mode(contact)}; it is at {heights(contact.telemetry.fix().altitude_m, contact.home_altitude_m)}.",
         f"{_circle(contact, setup)}, {turn}.",
-        f"If this program or the link dies, {loss_consequence(contact, setup)}.",
+        f"If this program or the link dies, {loss_consequence(contact)}.",
         f"Fence: {setup.settings.fence}.",
         *_stations(contact),
     )
@@ -33,10 +34,11 @@ def heights(altitude_m: float, home_m: float) -> str:
     return f"{altitude_m:.0f} m ({abs(height_m):.0f} m {'above' if height_m >= 0.0 else 'below'} home)"
 
 
-def loss_consequence(contact: Contact, setup: FlightSetup) -> str:
+def loss_consequence(contact: Contact) -> str:
     """What a vehicle that is steered does when no more setpoints arrive."""
     if contact.flies_px4:
-        return f"PX4 follows COM_OBL_RC_ACT: {setup.settings.loss_action}"
+        settings = autopilot_settings(contact.autopilot, contact.parameters.known)
+        return f"PX4 follows COM_OBL_RC_ACT: {settings.loss_action}"
     return ARDUPLANE_LOSS
 
 

@@ -8,8 +8,9 @@ from math import isnan, nan
 from time import monotonic
 from typing import Any, NamedTuple
 
-from loiter.errors import InvalidArgument, LoiterError, instance, not_negative, number, positive
+from loiter.errors import InvalidArgument, LinkFailed, LoiterError, instance, not_negative, number, positive
 from loiter.geo import LocalFrame
+from loiter.mavlink.autopilots.modes import CHANGE_S, HOLD_MODES, mode_name
 from loiter.mavlink.connection.command import hold_circle
 from loiter.mavlink.connection.dead_reckoning import pose_after
 from loiter.mavlink.connection.link import TIMEOUT_S, Link, check_target, open_link
@@ -220,6 +221,7 @@ class _HoldCommander:
         scaling = query_scaling(self._link, self._parameters, true_radius=self._options.true_radius)
         radius_m = self._sent_m(scaling, altitude_m)
         hold_circle(self._link, (*self._planner.centre, altitude_m), radius_m, turn, self._timeout_s)
+        _check_mode(self._link)
         self._commanded = True
 
     def _sent_m(self, scaling: LoiterScaling | None, altitude_m: float) -> float:
@@ -238,6 +240,21 @@ class _HoldCommander:
             return (sent_remark(scaling, sent_m, altitude_m),)
         remark = radius_remark(scaling, radius_m, altitude_m)
         return (remark,) if remark else ()
+
+
+def _check_mode(link: Link) -> None:
+    """Raise `LinkFailed` unless a heartbeat after the answer shows that the vehicle holds what it was commanded to.
+
+    ArduPlane accepts the command also where it denies the change of mode.
+    """
+    wanted, shown = HOLD_MODES.get(link.vehicle.autopilot), "and sends no heartbeat"
+    until = monotonic() + CHANGE_S
+    while wanted is not None and (message := link.receive({"HEARTBEAT"}, until)) is not None:
+        if message.custom_mode == wanted:
+            return
+        shown = f"but flies in {mode_name(link.vehicle.autopilot, message.custom_mode)}"
+    if wanted is not None:
+        raise LinkFailed(f"{link.vehicle.named} accepted the command to hold the circle, {shown}")
 
 
 class _Planner:
