@@ -33,8 +33,8 @@ STEP_S, ROLL_S = 0.2, 0.4
 ROUNDS = 2.0
 
 # The way to the circle should be farther from the fence than the margin by this share of the tightest turn, in case the
-# autopilot flies it otherwise than the model. On the circle, and where no way keeps that, it must keep this share of the
-# margin.
+# autopilot flies it otherwise than the model. On the circle, and where no way keeps that, it must keep this share of
+# the margin.
 WAY_SHARE, CIRCLE_SHARE = 0.25, 0.5
 
 # The radius of a circle beside the vehicle, in tightest turns.

@@ -79,7 +79,8 @@ def guide(
 
     `fence` is a fence, or "vehicle" for the one that the vehicle has: the fastest entry found that stays farther from
     it than `margin_m` metres (`loiter.fences.clear_entry`) is flown, and a flight without any is refused before the
-    first command. Guiding stops where the vehicle enters a zone in flight.
+    first command. So is one in which the vehicle would fly through a zone to each fall-back circle that it could be
+    commanded to. Guiding stops where the vehicle enters a zone in flight.
 
     With `slot` the vehicle enters that slot and keeps it until the generator is closed, by a radius that differs from
     that of the circle by a share of `slot_band` at most. The times of the slot are Unix times, seconds, by the clock of
