@@ -592,9 +592,9 @@ class GuidedFlight:
         contact = self._contact
         pending = contact.pending = self._hold_command()
         self._modes.expect(self._hold_mode)
-        deadline, levelled, accepted_at = monotonic() + CONFIRM_S, False, inf
+        deadline, levelled, self._accepted_at = monotonic() + CONFIRM_S, False, inf
         # ArduPlane accepts the command also where it denies the change of mode: only a later heartbeat shows the mode.
-        while not (self._modes.confirmed and contact.telemetry.arrived("HEARTBEAT") > accepted_at):
+        while not (self._modes.confirmed and contact.telemetry.arrived("HEARTBEAT") > self._accepted_at):
             if monotonic() > deadline or (pending.final and not pending.accepted):
                 return False
             pending.send(contact.link, monotonic())
@@ -603,7 +603,7 @@ class GuidedFlight:
                 contact.request_heartbeat(monotonic())
             levelled = self._keep_steering(measured=measured, levelled=levelled)
             now = contact.listen()
-            accepted_at = min(accepted_at, now) if pending.accepted else inf
+            self._accepted_at = min(self._accepted_at, now) if pending.accepted else inf
             if (stop := self._reason(now)) and not stop.ours:
                 raise GuidingStopped(stop)
         if measured and self._steered:
@@ -648,7 +648,7 @@ class GuidedFlight:
         assert steering is not None  # made by `_begin`
         if steering.reversals != self._reversals:
             # What was flown until then was not what the law had commanded: it identifies the vehicle from now on.
-            self._reversals, self._law = steering.reversals, self._new_law()  # from the same entry
+            self._reversals, self._law = steering.reversals, self._new_law()
         self._law.command_limit_deg = steering.limit_deg
         command = self._law.step(state, dt)
         assert self._setup.aircraft.max_bank_deg is not None  # the aircraft is made with a bank limit
@@ -748,7 +748,9 @@ class GuidedFlight:
         zone = None if fence is None or state is None else fence.violated(state.east_m, state.north_m)
         if zone is None:
             return None
-        return StopReason(f"the vehicle has {'left' if zone.inclusion else 'entered'} the zone {zone.name!r}")
+        # The autopilot may know the zone too, and act.
+        acts = self._setup.settings.fence == "on"
+        return StopReason(f"the vehicle has {'left' if zone.inclusion else 'entered'} the zone {zone.name!r}", acts=acts)
 
     def _other_commander(self) -> StopReason | None:
         """That another station or program commands the vehicle as well."""
