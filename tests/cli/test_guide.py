@@ -113,7 +113,7 @@ def test_a_signal_between_two_lines_does_too(capsys, monkeypatch, number):
 )
 def test_more_signals_cut_neither_the_command_back_nor_its_sentence_short(capsys, numbers):
     raised = [
-        (10.0 + 0.05 * i, lambda v, number=number: signal.raise_signal(number)) for i, number in enumerate(numbers)
+        (10.0 + 0.02 * i, lambda v, number=number: signal.raise_signal(number)) for i, number in enumerate(numbers)
     ]
     vehicle = GuidedPlane(events=raised)
     status, _, err = flown(vehicle, f"{GUIDE} --keep", capsys)

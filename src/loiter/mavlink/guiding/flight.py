@@ -750,7 +750,9 @@ class GuidedFlight:
             return None
         # The autopilot may know the zone too, and act.
         acts = self._setup.settings.fence == "on"
-        return StopReason(f"the vehicle has {'left' if zone.inclusion else 'entered'} the zone {zone.name!r}", acts=acts)
+        return StopReason(
+            f"the vehicle has {'left' if zone.inclusion else 'entered'} the zone {zone.name!r}", acts=acts
+        )
 
     def _other_commander(self) -> StopReason | None:
         """That another station or program commands the vehicle as well."""
