@@ -79,9 +79,9 @@ WIND_S = 0.5
 # The law has twice the time of its first plan and this, seconds, until the circle is held steadily.
 HAND_OVER_S = 180.0
 
-# An entry clear of a fence is searched for so often; it begins so many seconds ahead at first, and when it is flown the
-# first command is given so many seconds before: the circle is accepted meanwhile, and the aircraft rolls.
-SEARCHES, FIRST_AHEAD_S, BEGIN_S = 5, 1.5, 0.4
+# An entry clear of a fence begins so many seconds ahead at first, and the first command is given so many seconds before:
+# meanwhile the circle is accepted, and the aircraft rolls.
+FIRST_AHEAD_S, BEGIN_S = 1.5, 0.4
 
 # Seconds between checks of the own way to the fall-back circle.
 FALL_BACK_S = 1.0
@@ -195,13 +195,13 @@ class GuidedFlight:
 
         Raises `LinkFailed` where none is found, or the vehicle is elsewhere by then each time.
         """
-        contact, ahead_s, is_tight = self._contact, FIRST_AHEAD_S, False
-        for _ in range(SEARCHES):
+        contact, ahead_s, is_tight, until = self._contact, FIRST_AHEAD_S, False, monotonic() + LONGEST_SEARCH_S
+        while monotonic() < until:
             self._begin(choose(contact, request, settings)._replace(notices=()))
             law, state, began = self._law, self._state, monotonic()
             assert isinstance(law, FencedEntry)
             start = pose_ahead(contact, state, ahead_s, self._setup.wind)
-            found = yield from self._searched(law.problem_at(start, is_tight=is_tight))
+            found = yield from self._searched(law.problem_at(start, is_tight=is_tight), until)
             took_s = monotonic() - began
             if found.maneuver is None or len(found.maneuver.segments) > MOST_PIECES:
                 if is_tight:
@@ -211,16 +211,16 @@ class GuidedFlight:
                 yield from self._wait()
             here = pose_ahead(contact, self._state, BEGIN_S, self._setup.wind)
             if found.maneuver is not None and took_s <= ahead_s and law.begins_at(here, start):
-                self._entry = None if found.is_fastest else found.maneuver
+                self._entry = found.maneuver
                 return
             # The next one begins where the vehicle will be if that search takes as long and half as much again.
             ahead_s = min(max(FIRST_AHEAD_S, 1.5 * took_s + BEGIN_S), LONGEST_SEARCH_S)
-        elsewhere = f"was elsewhere than expected each time when an entry was found, {SEARCHES} times"
-        raise LinkFailed(f"{contact.name} cannot be guided clear of the fence: it {elsewhere}")
+        elsewhere = f"was elsewhere than expected each time when one was found, for {LONGEST_SEARCH_S:g} s"
+        raise LinkFailed(f"{contact.name} cannot be guided by an entry clear of the fence: it {elsewhere}")
 
-    def _searched(self, problem: SearchProblem) -> Generator[GuideReport, None, ClearEntry]:
+    def _searched(self, problem: SearchProblem, until: float) -> Generator[GuideReport, None, ClearEntry]:
         """The answer of a search for a clear entry; the vehicle is listened to meanwhile."""
-        search = Search(self._contact, problem)
+        search = Search(self._contact, problem, until)
         while not search.ended(monotonic()):
             yield from self._wait()
         try:
@@ -443,6 +443,7 @@ class GuidedFlight:
         self._contact.pending = None
         self._stage, self._steered = Stage.JOINING, True
         self._law, self._holdability = self._new_law(), self._new_holdability()
+        self._entry = None  # another law would begin elsewhere
         began = monotonic()
         limit_s, self._last_step = inf, began - STEP_S
         while not (self._steady.settled and not self._request.keep):

@@ -48,8 +48,8 @@ OTHERS_S = 1.1
 # Seconds for everything that is needed to arrive, and for PX4's version, without which the flight begins too.
 PREPARE_S, VERSION_S = 8.0, 1.5
 
-# Seconds for a search for an entry that stays clear of a fence: the vehicle flies on meanwhile.
-LONGEST_SEARCH_S = 12.0
+# Seconds for searches for an entry that stays clear of a fence: the vehicle flies on meanwhile.
+LONGEST_SEARCH_S = 30.0
 
 # What is said of the time for that.
 AGAIN = (
@@ -172,7 +172,9 @@ def _fenced(contact: Contact, fence: Fence, request: GuideRequest, chosen: Fligh
     start, scene = Pose(state.east_m, state.north_m, wrapped(state.heading_deg)), (chosen.aircraft, wind)
     margin_m = checked_margin_m(request.orbit, request.margin_m)
     try:
-        search = Search(contact, SearchProblem(fence, start, request.orbit, *scene, margin_m))
+        search = Search(
+            contact, SearchProblem(fence, start, request.orbit, *scene, margin_m), monotonic() + LONGEST_SEARCH_S
+        )
         while not search.ended(monotonic()):
             contact.request_in_flight(contact.listen())
         found = search.found
@@ -189,14 +191,14 @@ def _fenced(contact: Contact, fence: Fence, request: GuideRequest, chosen: Fligh
 
 
 class Search:
-    """A search for a clear entry, while which the vehicle flies on and its messages must be received."""
+    """A search for a clear entry until a time, during which messages must be received: the vehicle flies on."""
 
-    def __init__(self, contact: Contact, problem: SearchProblem) -> None:
-        self._name, self._answer, self._began = contact.name, begin_search(problem), monotonic()
+    def __init__(self, contact: Contact, problem: SearchProblem, until: float) -> None:
+        self._name, self._answer, self._until = contact.name, begin_search(problem), until
 
     def ended(self, now: float) -> bool:
         """Whether there is an answer; raises `LinkFailed` where it takes too long."""
-        if not self._answer.ready() and now > self._began + LONGEST_SEARCH_S:
+        if not self._answer.ready() and now > self._until:
             late = f"no entry that stays clear of the fence was found in {LONGEST_SEARCH_S:g} s"
             raise LinkFailed(f"{self._name} cannot be guided: {late}")
         return self._answer.ready()
