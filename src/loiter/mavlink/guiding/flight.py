@@ -79,8 +79,8 @@ WIND_S = 0.5
 # The law has twice the time of its first plan and this, seconds, until the circle is held steadily.
 HAND_OVER_S = 180.0
 
-# An entry clear of a fence begins so many seconds ahead at first, and the first command is given so many seconds before:
-# meanwhile the circle is accepted, and the aircraft rolls.
+# An entry clear of a fence begins so many seconds ahead at first, and the first command is given so many seconds
+# before: meanwhile the circle is accepted, and the aircraft rolls.
 FIRST_AHEAD_S, BEGIN_S = 1.5, 0.4
 
 # Seconds between checks of the own way to the fall-back circle.
