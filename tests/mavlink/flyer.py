@@ -254,6 +254,10 @@ class Flyer:
             return self.acknowledge_command(message, 2)
         return super().on_command_long(message)
 
+    def on_param_request_read(self, message):
+        if not self.muted:
+            super().on_param_request_read(message)
+
     def acknowledge_command(self, message, result):
         if not self.muted:
             super().acknowledge_command(message, result)
