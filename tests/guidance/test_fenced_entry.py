@@ -9,8 +9,9 @@ from fences.sampling import clearance
 from loiter import Aircraft, Orbit, Pose, Turn, Wind
 from loiter.errors import InvalidArgument
 from loiter.fences import CircleZone, Fence, PolygonZone, clear_entry
+from loiter.fences.clear_entry import fastest_clear
 from loiter.guidance.entry import fenced_entry
-from loiter.guidance.entry.fenced_entry import FencedEntry
+from loiter.guidance.entry.fenced_entry import FencedEntry, begin_search
 from loiter.guidance.entry.loiter_entry import LoiterEntry
 from loiter.guidance.vehicle import INSTANT_ROLL
 from loiter.lab.simulators.kinematic import Kinematic
@@ -78,6 +79,26 @@ def test_a_problem_is_said(monkeypatch):
 def test_errors_of_searches_come_from_other_processes():
     error = pickle.loads(pickle.dumps(InvalidArgument("pose", "is inside the zone")))
     assert (str(error), error.argument, error.problem) == ("pose is inside the zone", "pose", "is inside the zone")
+
+
+def test_a_search_in_another_process_has_the_same_answer():
+    problem = FencedEntry(ORBIT, UAV, fence=FENCE).problem_at(POSE, is_tight=False)
+    assert begin_search(problem).get().sentence == fastest_clear(*problem).sentence
+
+
+def test_an_entry_that_was_found_before_is_flown_from_the_beginning(monkeypatch):
+    """No search is made for it, and the path is that of the entry although the aircraft begins 2 m beside it."""
+    fence = Fence((WALL,))
+    law = FencedEntry(ORBIT, UAV, fence=fence, margin_m=10.0)
+    first = fastest_clear(*law.problem_at(POSE, is_tight=False)).maneuver
+    assert law.begins_at(Pose(POSE.east_m, 2.0, 92.0), POSE)
+    assert not law.begins_at(Pose(POSE.east_m, 0.0, 97.0), POSE)
+    assert not law.begins_at(Pose(POSE.east_m, 8.0, 90.0), POSE)
+    monkeypatch.setattr(fenced_entry, "fastest_clear", None)
+    law = FencedEntry(ORBIT, UAV, fence=fence, margin_m=10.0, first=first)
+    start = Pose(POSE.east_m, 2.0, 92.0)
+    flight = fly(law, PointMass(start, UAV, seed=4, gust=0.0), ORBIT, limit_s=16.0)
+    assert least_m(flight, WALL) > 5.0
 
 
 def test_a_circle_that_moves_is_refused():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import atexit
 import signal
 from contextlib import suppress
 from functools import cache
@@ -343,7 +344,9 @@ def begin_search(problem: SearchProblem) -> Answer:
 
 @cache
 def _process() -> Pool:
-    return get_context("forkserver").Pool(1, _ignore_signals)
+    pool = get_context("forkserver").Pool(1, _ignore_signals)
+    atexit.register(pool.terminate)
+    return pool
 
 
 def _ignore_signals() -> None:
