@@ -1,8 +1,8 @@
 """The circle to which a vehicle is commanded back: one to which its own guidance does not lead it through a fence.
 
 An autopilot flies to a circle straight, through whatever is between. Where that is a zone, it is commanded to a circle
-beside the vehicle instead, which it need only turn into. The way is that of the law of `guidance.rivals.l1`, which is
-ArduPlane's; PX4's is much the same.
+beside the vehicle instead, which it need only turn into. The way is that of ArduPlane's guidance; PX4's is much the
+same.
 """
 
 from __future__ import annotations
@@ -17,17 +17,21 @@ import numpy as np
 from loiter.errors import LoiterError
 from loiter.fences import Fence
 from loiter.fences.model import Zone, signed_distance
-from loiter.guidance.circle import circle_offset
+from loiter.guidance.circle import Band, circle_offset
 from loiter.guidance.protocol import State
-from loiter.guidance.rivals.following import BAND
-from loiter.guidance.rivals.l1 import DAMPING, L1, PERIOD_S
-from loiter.guidance.vehicle import PlanarPose, constant_turn, rate_at_bank
-from loiter.mavlink.autopilots.own_guidance import Guidance
+from loiter.guidance.vehicle import PlanarPose, bank_at_rate, clip, constant_turn, rate_at_bank
+from loiter.mavlink.autopilots.own_guidance import DEFAULT_DAMPING, Guidance
 from loiter.planning.compass import heading_of, heading_vector
-from loiter.planning.model import Aircraft, Orbit, Turn, Wind, sign_of
+from loiter.planning.model import CALM, Aircraft, Orbit, Turn, Wind, check_held, relative_wind, sign_of
 
 # Seconds between the places of a way, and the time constant of the bank.
 STEP_S, ROLL_S = 0.2, 0.4
+
+# The guidance of a vehicle that does not report its own: ArduPlane's defaults.
+DEFAULT_GUIDANCE = Guidance(2.0 * pi / 17.0, DEFAULT_DAMPING)
+
+# In this band a vehicle counts as on the circle.
+BAND = Band()
 
 # A way is flown for the time of the straight line to the circle and so many rounds more.
 ROUNDS = 2.0
@@ -52,12 +56,6 @@ class OwnGuidance(NamedTuple):
     guidance: Guidance | None
     kept_s: float = 0.0
 
-    def law(self, orbit: Orbit) -> L1:
-        """The law with which it flies onto a circle; raises `LoiterError` where that cannot be held."""
-        known = self.guidance
-        period_s, damping = (PERIOD_S, DAMPING) if known is None else (2.0 * pi / known.omega, known.damping)
-        return L1(orbit, self.aircraft, self.wind, period_s=period_s, damping=damping)
-
 
 class OwnWay(NamedTuple):
     """The places on the way of a vehicle onto a circle and round it, metres, and whether it is on the circle there."""
@@ -69,8 +67,10 @@ class OwnWay(NamedTuple):
 
 def own_way(state: State, orbit: Orbit, own: OwnGuidance) -> OwnWay:
     """The way of a vehicle onto a circle, by its own guidance; raises `LoiterError` where it cannot hold the circle."""
-    law, air = own.law(orbit), (0.0, 0.0) if own.wind is None else own.wind.velocity_m_s
-    V, bank_deg, side = own.aircraft.airspeed_m_s, state.bank_deg, sign_of(orbit.turn)
+    wind, guidance, aircraft = own.wind or CALM, own.guidance or DEFAULT_GUIDANCE, own.aircraft
+    check_held(orbit, aircraft, relative_wind(orbit, aircraft, wind), wind)
+    limit_deg, air = aircraft.bank_deg(aircraft.turn_radius_m), wind.velocity_m_s
+    V, bank_deg, side = aircraft.airspeed_m_s, state.bank_deg, sign_of(orbit.turn)
     here = PlanarPose(state.east_m, state.north_m, *heading_vector(state.heading_deg))
     away_m = abs(circle_offset(state, orbit).outside_m)
     way, kept = OwnWay([], [], []), exp(-STEP_S / ROLL_S)
@@ -80,7 +80,8 @@ def own_way(state: State, orbit: Orbit, own: OwnGuidance) -> OwnWay:
         way.east_m.append(here.x)
         way.north_m.append(here.y)
         way.is_on_circle.append(BAND.has(circle_offset(now, orbit), side))
-        wanted_deg = law.step(now, STEP_S).bank_deg
+        demand = guidance.loiter_demand(circle_offset(now, orbit), side)
+        wanted_deg = clip(bank_at_rate(demand / V, V), limit_deg)
         if k * STEP_S >= own.kept_s:
             bank_deg = wanted_deg + kept * (bank_deg - wanted_deg)
         # Angles are counted counter-clockwise: a rate to the right is negative.
