@@ -35,7 +35,7 @@ SLOW = {
     "compiled": "ufuncs wind_solver",
     "documents": "notebooks package site",
     "evidence/tests": "collocation formal oracle_check proof reachability rounding signs verify wind_scan",
-    "guidance": "identification law_in_javascript loiter_entry slew",
+    "guidance": "identification loiter_entry slew",
     "kernel": "cell_bounds wind_search",
     "lab": "campaign following jsbsim_aircraft",
     "mavlink": "guide guide_misbehaving mavproxy peers upload watch",

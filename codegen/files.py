@@ -17,7 +17,7 @@ from loiter.kernel.still_air import extremals, switching_curves, synthesis, valu
 from loiter.kernel.wind import held, hold, paths, slots, way_out, wind_search
 from loiter.version import __version__
 from loiter.web import problems  # noqa: F401
-from loiter.web.answers import exports, fences, legs, plans, race  # noqa: F401
+from loiter.web.answers import exports, fences, legs, plans  # noqa: F401
 
 FOLDER = ROOT / "src" / "loiter" / "native"
 PAGE = ROOT / "src" / "loiter" / "web" / "static" / "kernel"
@@ -122,13 +122,6 @@ def law() -> str:
     return Unit("law.h", LAW_ARITHMETIC, STEPS).text()
 
 
-def law_module() -> str:
-    """What `law` has, as JavaScript; it belongs to no package. Its exponentials are the browser's."""
-    functions = PORTABLE.functions | {name: f"Math.{name}" for name in ("exp", "log")}
-    arithmetic = PORTABLE._replace(functions=functions, replaced=PORTABLE.replaced | LAW_REPLACED)
-    return Module("law.js", arithmetic, (*STEPS, identification_step.first_identification)).text()
-
-
 # Only a bound on the steps of the search for slots has an exponential: it is the browser's.
 PAGE_ARITHMETIC = PORTABLE._replace(functions=PORTABLE.functions | {"exp": "Math.exp"})
 
@@ -138,7 +131,6 @@ ABOVE_KERNEL = (
     ("loiter.web.answers.plans", "certificate"),
     ("loiter.web.answers.plans", "first_maneuver"),
     ("loiter.web.answers.tracks", "lap"),
-    ("loiter.web.answers.race", "race"),
     ("loiter.web.answers.legs", "leg_plan"),
     ("loiter.web.answers.legs", "leg_fence_check"),
     ("loiter.web.answers.legs", "leg_file"),

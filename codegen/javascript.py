@@ -86,14 +86,6 @@ class JavaScriptExpressions(Expressions):
         """A member of an enumeration."""
         return f"{enum.__name__}.{name}"
 
-    def ring_call(self, kind: Kind, change: str, *arguments: Expression) -> str:
-        """A ring as an array: filled, with another last element, or without its first one besides."""
-        first, *others = (argument.text for argument in arguments)
-        if change == "filled":
-            return f"Array({kind.length}).fill({first})"
-        kept = "1" if change == "appended" else "0, -1"
-        return f"[...{first}.slice({kept}), {', '.join(others)}]"
-
     def literal(self, value: float) -> str:
         """A number."""
         return super().literal(value).replace("NAN", "NaN").replace("INFINITY", "Infinity")

@@ -5,7 +5,7 @@ and takes little time, so here operators and methods become calls of `static/ker
 complex numbers, arrays and text as Python does. Functions of the kernel stay those of `kernel.js`. All that the globals
 `roots` need is translated, but for what JavaScript has elsewhere.
 
-Classes that are neither dataclasses nor named tuples are classes there too, with at most one base of ours.
+Classes that are neither dataclasses nor named tuples are classes there too, without a base of ours.
 
 Members of enumerations are their values: text or integers. A number without decimals may be written as a float, unless
 it looks like an integer, such as `len(...)`.
@@ -193,21 +193,15 @@ class Library:
         return lines
 
     def _plain_class(self, title: str, node: ast.ClassDef, cls: type, writer: Writer) -> str:
-        """A class with a constructor, and with a base that is translated before it if the base is ours."""
-        base = cls.__bases__[0] if cls.__bases__[0].__module__.startswith("loiter.") else None
-        parent = "Values"
-        if base is not None:
-            key = base.__module__, base.__name__
-            parent = f"{self.named(*key)}.kind"
-            if key in self.waiting:
-                self.waiting.remove(key)
-                self._translate(key)
+        """A class with a constructor."""
+        if cls.__bases__[0].__module__.startswith("loiter."):
+            raise NotTranslated(f"{cls.__module__}: {cls.__name__} has a base")
         lines = [
-            writer.constructor(one, base) if one.name == "__init__" else writer.method(one)
+            writer.constructor(one) if one.name == "__init__" else writer.method(one)
             for one in node.body
             if isinstance(one, ast.FunctionDef)
         ]
-        return f"const {title} = struct(class extends {parent} {{\n" + "\n".join(lines) + "\n}, []);"
+        return f"const {title} = struct(class extends Values {{\n" + "\n".join(lines) + "\n}, []);"
 
     def _is_unused(self, node: ast.FunctionDef, cls: type) -> bool:
         return node.name in UNUSED.get(cls.__name__, ()) or (
@@ -265,18 +259,9 @@ class Writer:
         name = {"__str__": "toString"}.get(node.name, safe(node.name))
         return f"{get}{name}({self._parameters(node.args, skip=1)}) {{\n{body}\n}}"
 
-    def constructor(self, node: ast.FunctionDef, base: type | None) -> str:
-        """A constructor; where there is a base, its first statement calls that of the base."""
-        head, body = "super();", node.body
-        if base is not None:
-            first, *body = body
-            assert isinstance(first, ast.Expr), ast.unparse(first)
-            assert isinstance(first.value, ast.Call), ast.unparse(first)
-            self.local.append({one.arg for one in (*node.args.args, *node.args.kwonlyargs)})
-            head = f"super({', '.join(self._bound(first.value, base))});"
-            self.local.pop()
-        rest = self._body(ast.FunctionDef(node.name, node.args, body, [], lineno=node.lineno), "this")
-        return f"constructor({self._parameters(node.args, skip=1)}) {{\n{head}\n{rest}\n}}"
+    def constructor(self, node: ast.FunctionDef) -> str:
+        """A constructor."""
+        return f"constructor({self._parameters(node.args, skip=1)}) {{\nsuper();\n{self._body(node, 'this')}\n}}"
 
     def _parameters(self, arguments: ast.arguments, skip: int = 0) -> str:
         given = [*arguments.posonlyargs, *arguments.args]
@@ -683,8 +668,6 @@ class Writer:
 
     def _Call(self, node: ast.Call) -> str:
         match node.func:
-            case ast.Attribute(value=ast.Call(func=ast.Name(id="super")), attr=name):
-                return f"super.{safe(name)}({', '.join(map(self._element, node.args))})"
             case ast.Attribute(value=ast.Name(id="object"), attr="__setattr__"):
                 owner, name, value = map(self.expression, node.args)
                 return f"({owner}[{name}] = {value})"

@@ -384,10 +384,9 @@ DESCRIPTIONS = {
         "The fastest way onto a holding circle, in still air and in wind, for browsers and Node: the same answers in "
         "all of them, to the last bit, since sine, cosine and arctangent are its own."
     ),
-    **dict.fromkeys(
-        ("law.h", "law.js"),
+    "law.h": (
         "A guidance law that flies the fastest entry onto a holding circle, and the identification of its vehicle, as "
-        "steps without side effects.",
+        "steps without side effects."
     ),
     "kernel.h": (
         "The fastest way onto a holding circle, in still air and in wind, in double precision, with the functions of "

@@ -8,8 +8,6 @@ from playwright.sync_api import expect
 import loiter
 from loiter.geo import LocalFrame
 from loiter.io import save
-from loiter.planning.problem import Problem
-from loiter.web.answers.race import race
 from web.browsing import (
     DESK,
     PHONE,
@@ -20,7 +18,6 @@ from web.browsing import (
     reference_of,
     scene,
     settle,
-    time_text,
     values,
 )
 from web.test_drawing import boxes, overlap
@@ -255,26 +252,3 @@ def test_what_is_no_plan_with_a_circle_gets_a_sentence_and_changes_nothing(page)
         drop(page, "a.plan", text)
         expect(page.locator("#message")).to_have_text(sentence)
         assert scene(page) == before
-
-
-# The race
-
-
-def test_the_race_shows_how_much_later_other_laws_join(page):
-    page.locator("#race").click()
-    results = page.locator("#results li")
-    expect(results).to_have_count(3)
-    assert page.locator("#play").get_attribute("aria-pressed") == "true"
-    ghosts = page.locator("#plan .rivals g")
-    before = ghosts.first.get_attribute("transform")
-    expect(ghosts.first).not_to_have_attribute("transform", before)
-    pose, orbit, aircraft, _ = values(scene(page))
-    least = loiter.plan(pose, orbit, aircraft).duration_s
-    expected = [f"{one['law']} +{time_text(one['joined_s'] - least)}" for one in race(Problem(pose, orbit, aircraft))]
-    assert results.all_inner_texts() == expected
-    # They end with the scene, and come back when the drag pauses.
-    press(page, "In wind")
-    expect(results).to_have_count(3)
-    assert results.all_inner_texts() != expected
-    page.locator("#race").click()
-    expect(ghosts).to_have_count(0)

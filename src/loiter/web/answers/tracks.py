@@ -39,8 +39,8 @@ def track(maneuver: Maneuver) -> dict[str, list[float]]:
     }
 
 
-def lap(maneuver: Maneuver, laps: int = 1) -> dict[str, list[float]]:
-    """Rounds of the circle after a maneuver, as `track`, in seconds from the start of the maneuver.
+def lap(maneuver: Maneuver) -> dict[str, list[float]]:
+    """A round of the circle after a maneuver, as `track`, in seconds from the start of the maneuver.
 
     The speed along the circle changes with the wind; between two points it is taken as their mean.
     """
@@ -50,7 +50,7 @@ def lap(maneuver: Maneuver, laps: int = 1) -> dict[str, list[float]]:
     join, step = maneuver.join, 2.0 * pi / LAP_STEPS
     first = phase_of((join.east_m - centre.east_m) / r, (join.north_m - centre.north_m) / r, side, wx, wy)
     time, speed, rows = maneuver.duration_s, None, []
-    for i in range(laps * LAP_STEPS + 1):
+    for i in range(LAP_STEPS + 1):
         x, y, c, s, g = hold_pose(first + i * step, side, R, wx, wy)
         time = time if speed is None else time + step * R * r / (0.5 * (speed + g) * V)
         east, north = orbit.centre_after(time)

@@ -21,7 +21,6 @@ export function legView(store) {
       show(list, scene.leg !== null);
       show(byId("entry-facts", HTMLElement), scene.leg === null);
       show(byId("entries-note", HTMLElement), scene.leg !== null);
-      show(byId("race", HTMLElement), scene.leg === null);
       if (leg) fill(list, factsOf(leg, state));
     },
   );

@@ -24,8 +24,8 @@ export const plan = (scene) => plain(library.plan(placed(scene), slotOf(scene)))
 /** The certificate of the first optimal maneuver. @param {Scene} scene @returns {Proof} */
 export const certificate = (scene) => plain(library.certificate(placed(scene), slotOf(scene)));
 
-/** Rounds of the circle after the first optimal maneuver. @param {Scene} scene @param {number} [laps] @returns {Track} */
-export const lap = (scene, laps) => plain(library.lap(firstOf(scene), laps));
+/** A round of the circle after the first optimal maneuver. @param {Scene} scene @returns {Track} */
+export const lap = (scene) => plain(library.lap(firstOf(scene)));
 
 /**
  * Where the slot of a scene is at a time, if it moves in a direction of the hold.
@@ -36,9 +36,6 @@ export const lap = (scene, laps) => plain(library.lap(firstOf(scene), laps));
  * @returns {import("../shared/types.js").Pose}
  */
 export const slotPose = (scene, turn, time_s) => library.slot_pose(slotOf(scene), placed(scene).problem.with_turn(turn), time_s);
-
-/** Other guidance laws from the same start. @param {Scene} scene @returns {import("../shared/types.js").Racer[]} */
-export const race = (scene) => plain(library.race(placed(scene).problem));
 
 /** The way in, round and out of a scene with a leg. @param {Scene} scene @returns {import("../shared/types.js").LegPlan} */
 export const legPlan = (scene) => plain(library.leg_plan(placed(scene), scene.leg));

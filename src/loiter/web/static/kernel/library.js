@@ -41,7 +41,7 @@ let _, first;
 return first;
 }
 
-function lap(maneuver, laps = 1) {
+function lap(maneuver) {
 let R, V, aircraft, c, centre, east, first, g, i, join, names, north, orbit, r, rows_, s, side, speed, step, time, wx, wy, x, y;
 [aircraft, orbit, side] = iter([maneuver.aircraft, maneuver.orbit, item(SIDES, maneuver.turn)]);
 [r, V, centre] = iter([aircraft.turn_radius_m, aircraft.airspeed_m_s, maneuver.orbit_at_join]);
@@ -49,7 +49,7 @@ let R, V, aircraft, c, centre, east, first, g, i, join, names, north, orbit, r, 
 [join, step] = iter([maneuver.join, div(mul(2.0, math.pi), LAP_STEPS)]);
 first = kernel.phase_of(div(sub(join.east_m, centre.east_m), r), div(sub(join.north_m, centre.north_m), r), side, wx, wy);
 [time, speed, rows_] = iter([maneuver.duration_s, null, []]);
-for (i of iter(range(add(mul(laps, LAP_STEPS), 1)))) {
+for (i of iter(range(add(LAP_STEPS, 1)))) {
 [x, y, c, s, g] = iter(kernel.hold_pose(add(first, mul(i, step)), side, R, wx, wy));
 time = ((speed == null) ? time : add(time, div(mul(mul(step, R), r), mul(mul(0.5, add(speed, g)), V))));
 [east, north] = iter(orbit.centre_after(time));
@@ -58,21 +58,6 @@ speed = g;
 }
 names = ["time_s", "east_m", "north_m", "heading_deg", "x", "y"];
 return new Map(list(iter(zip(names, zip(...iter(rows_))))).map((one) => iter(one)).map(([name, column]) => [name, list(column)]));
-}
-
-function race(problem) {
-let _, dt, flown, one;
-dt = div(mul(STEP, problem.aircraft.turn_radius_m), problem.aircraft.airspeed_m_s);
-flown = list(iter(items_(laws(problem)))).map((one) => iter(one)).map(([name, law]) => _Flown(name, law, problem));
-for (_ of iter(range(MOST_STEPS))) {
-if (truth(all(list(iter(flown)).map((one) => one.monitor.settled)))) {
-break;
-}
-for (one of iter(flown)) {
-one.advance(dt);
-}
-}
-return list(iter(flown)).map((one) => one.result());
 }
 
 function leg_plan(placed, asked) {
@@ -2069,39 +2054,6 @@ found = sorted(list(iter(directions(problem.orbit.turn))).map((turn) => _arrival
 return maneuvers(list(iter(found)).map((one) => _with_orbit(one, problem.orbit)));
 }
 
-function laws(problem) {
-let aircraft, orbit, period_s, wind;
-[orbit, aircraft, wind] = iter([problem.orbit, problem.aircraft, problem.wind]);
-period_s = min(SHORTEST_PERIOD_S, div(mul(PERIOD, aircraft.turn_radius_m), aircraft.airspeed_m_s));
-return new Map([["L1", L1(orbit, aircraft, wind, period_s)], ["vector field", VectorField(orbit, aircraft, wind)], ["tangent point", Tangent(orbit, aircraft, wind, undefined, undefined, period_s)]]);
-}
-
-const _Flown = struct(class extends Values {
-constructor(name, law, problem) {
-super();
-const self = this;
-[self.name, self.law] = iter([name, law]);
-self.simulator = Kinematic(problem.pose, problem.aircraft, problem.wind);
-self.monitor = SettlingMonitor(problem.orbit, BAND);
-self.states = [];
-self._record();
-}
-advance(dt) {
-const self = this;
-self.simulator.advance(self.law.step(item(self.states, -1), dt), dt);
-self._record();
-}
-_record() {
-const self = this;
-append_(self.states, self.simulator.true_state());
-self.monitor.update(item(self.states, -1));
-}
-result() {
-const self = this;
-return new Map([["law", self.name], ["joined_s", (truth(self.monitor.settled) ? self.monitor.joined_s : null)], ["track", new Map([["time_s", list(iter(self.states)).map((state) => state.time_s)], ["east_m", list(iter(self.states)).map((state) => state.east_m)], ["north_m", list(iter(self.states)).map((state) => state.north_m)], ["heading_deg", list(iter(self.states)).map((state) => state.heading_deg)]])]]);
-}
-}, []);
-
 function _planned(placed, asked) {
 let leg, problem;
 if (((asked.altitude_m != null) && (asked.start_altitude_m == null))) {
@@ -3068,340 +3020,6 @@ function _with_orbit(candidate, orbit) {
 return replace(candidate, { maneuver: replace(candidate.maneuver, { orbit: orbit }) });
 }
 
-const Follower = struct(class extends Values {
-constructor(orbit, aircraft, wind = null) {
-super();
-const self = this;
-[self.orbit, self.aircraft, self.wind] = iter([orbit, aircraft, ((wind == null) ? CALM : wind)]);
-check_held(orbit, aircraft, relative_wind(orbit, aircraft, self.wind), self.wind);
-self.turn = orbit.turn;
-self._max_bank_deg = aircraft.bank_deg(aircraft.turn_radius_m);
-self._bank_deg = 0.0;
-}
-step(state, dt) {
-let V, demand;
-const self = this;
-positive("dt", dt, "seconds");
-if (!truth(is_plausible(state))) {
-return self._command(Demand(0.0, Phase.NO_DATA));
-}
-if (eq(self.turn, Turn.EITHER)) {
-self.turn = self._choose_turn(state);
-}
-demand = self._demand(state);
-V = self.aircraft.airspeed_m_s;
-self._bank_deg = clip(bank_at_rate(div(demand.right_m_s2, V), V), self._max_bank_deg);
-return self._command(demand);
-}
-_choose_turn(state) {
-let here;
-const self = this;
-here = Pose(state.east_m, state.north_m, state.heading_deg);
-return solve_plan(here, self.orbit.after(state.time_s), self.aircraft, self.wind).turn;
-}
-_demand(state) {
-const self = this;
-}
-get _side() {
-const self = this;
-return sign_of(self.turn);
-}
-_command(demand) {
-const self = this;
-return Command(math.degrees(rate_at_bank(self._bank_deg, self.aircraft.airspeed_m_s)), self._bank_deg, demand.phase, (eq(demand.phase, Phase.HOLD) ? 0.0 : demand.time_to_join_s), self.turn, demand.next_phase, demand.next_in_s);
-}
-}, []);
-
-const VectorField = struct(class extends Follower.kind {
-constructor(orbit, aircraft, wind = null, gains = null) {
-super(orbit, aircraft, wind);
-let gain, name;
-const self = this;
-self.gains = ((gains == null) ? advised_gains(orbit, aircraft) : gains);
-for ([name, gain] of rows(zip(FieldGains._fields, self.gains))) {
-positive(name, gain, "units");
-}
-}
-_demand(state) {
-let course, crab, offset, rate, right;
-const self = this;
-offset = circle_offset(state, self.orbit);
-rate = commanded_course_rate(offset, self._side, self.gains);
-course = math.atan2(state.velocity_east_m_s, state.velocity_north_m_s);
-crab = max(math.cos(sub(course, math.radians(state.heading_deg))), LEAST_CRAB_COS);
-right = div(mul(offset.speed_m_s, rate), crab);
-return Demand(right, demand_phase(right, offset, self._side));
-}
-}, []);
-
-const L1 = struct(class extends Follower.kind {
-constructor(orbit, aircraft, wind = null, period_s = PERIOD_S, damping = DAMPING) {
-super(orbit, aircraft, wind);
-const self = this;
-[self.period_s, self.damping] = iter([positive("period_s", period_s, "seconds"), positive("damping", damping, "one")]);
-self._nu = 0.0;
-}
-_demand(state) {
-let capture, circle, offset, right, side;
-const self = this;
-[offset, side] = iter([circle_offset(state, self.orbit), self._side]);
-self._nu = self._steady_angle(centre_angle(offset), offset, state);
-capture = capture_demand(offset, self._nu, self.period_s, self.damping);
-circle = circle_demand(offset, side, self.period_s, self.damping);
-right = ((gt(offset.outside_m, 0.0) && lt(mul(side, capture), mul(side, circle))) ? capture : circle);
-return Demand(right, demand_phase(right, offset, side));
-}
-_steady_angle(nu, offset, state) {
-let away, east, north;
-const self = this;
-[east, north] = iter(heading_vector(state.heading_deg));
-away = gt(add(mul(east, offset.out_east), mul(north, offset.out_north)), AWAY_HEADING_COS);
-return ((truth(away) && gt(min(abs(nu), abs(self._nu)), AWAY_ANGLE) && lt(mul(nu, self._nu), 0.0)) ? self._nu : nu);
-}
-}, []);
-
-const Tangent = struct(class extends L1.kind {
-constructor(orbit, aircraft, wind = null, reserve = RESERVE, lead_s = 0.0, period_s = SHORTEST_PERIOD_S, damping = DAMPING) {
-super(orbit, aircraft, wind, period_s, damping);
-let wider;
-const self = this;
-self._relative_wind = relative_wind(orbit, aircraft, self.wind);
-wider = mul(aircraft.turn_radius_m, add(1.0, not_negative("reserve", reserve, "one")));
-self._radius_m = min(wider, div(orbit.radius_m, kernel.tightest_radius(...iter(self._relative_wind))));
-self._lead_m = mul(not_negative("lead_s", lead_s, "seconds"), aircraft.airspeed_m_s);
-self._pieces = [];
-self._start = null;
-}
-_choose_turn(state) {
-const self = this;
-return min([Turn.CW, Turn.CCW], { key: ((turn) => self._path(state, turn).time) });
-}
-_demand(state) {
-let progress;
-const self = this;
-if ((self._start == null)) {
-self._start = self._plan(state);
-}
-progress = self._advance(self._start, state);
-if (((progress != null) && gt(abs(progress.crosstrack_m), mul(LARGEST_OFFSET, self._radius_m)))) {
-self._start = self._plan(state);
-progress = self._advance(self._start, state);
-}
-return ((progress == null) ? super._demand(state) : self._follow(progress));
-}
-_advance(start, state) {
-let current, later, progress;
-const self = this;
-while (truth(self._pieces)) {
-[current, ...later] = iter(self._pieces);
-progress = self._progress(current, start, state);
-if (lt(progress.along_m, sub(current.length_m, self._lead_m))) {
-return progress;
-}
-self._pieces = later;
-}
-return null;
-}
-_plan(state) {
-let c, path, r, s, t, u, x, y;
-const self = this;
-r = self._radius_m;
-path = self._path(state, self.turn);
-[x, y, [c, s]] = iter([0.0, 0.0, heading_vector(state.heading_deg)]);
-self._pieces = [];
-for ([u, t] of rows(zip(kernel.controls(path.word), [path.t1, path.t2, path.t3]))) {
-if (eq(u, ABSENT)) {
-break;
-}
-if (gt(mul(t, r), SHORT_M)) {
-append_(self._pieces, DubinsPiece(u, mul(t, r), mul(x, r), mul(y, r), c, s));
-}
-[x, y, c, s] = iter(kernel.fly(x, y, c, s, u, t));
-}
-return state;
-}
-_path(state, turn) {
-let R, heading, offset, phase, place, r, scene, side;
-const self = this;
-[r, offset, side] = iter([self._radius_m, circle_offset(state, self.orbit), sign_of(turn)]);
-place = [mul(div(offset.distance_m, r), offset.out_east), mul(div(offset.distance_m, r), offset.out_north)];
-[heading, R] = iter([heading_vector(state.heading_deg), div(self.orbit.radius_m, r)]);
-scene = kernel.scene_of(WindProblem(...iter(place), ...iter(heading), R, side, ...iter(self._relative_wind)));
-phase = kernel.phase_of(offset.out_east, offset.out_north, side, ...iter(self._relative_wind));
-return kernel.first_path(phase, side, scene, math.inf);
-}
-_progress(piece, start, state) {
-let east, elapsed_s, north, offset, place, r, velocity_east, velocity_north, wind_east, wind_north;
-const self = this;
-[wind_east, wind_north] = iter(self.wind.velocity_m_s);
-elapsed_s = sub(state.time_s, start.time_s);
-east = sub(sub(sub(state.east_m, start.east_m), mul(wind_east, elapsed_s)), piece.east_m);
-north = sub(sub(sub(state.north_m, start.north_m), mul(wind_north, elapsed_s)), piece.north_m);
-[velocity_east, velocity_north] = iter([sub(state.velocity_east_m_s, wind_east), sub(state.velocity_north_m_s, wind_north)]);
-if (eq(piece.u, 0)) {
-return self._line_progress(piece, east, north, sub(mul(velocity_north, piece.c), mul(velocity_east, piece.s)));
-}
-r = self._radius_m;
-place = [add(east, mul(mul(piece.u, r), piece.s)), sub(north, mul(mul(piece.u, r), piece.c))];
-offset = offset_at(place, [velocity_east, velocity_north], state.heading_deg, r);
-return self._arc_progress(piece, offset);
-}
-_line_progress(piece, east, north, leftward) {
-let left, omega, right_m_s2;
-const self = this;
-left = sub(mul(north, piece.c), mul(east, piece.s));
-omega = div(mul(2.0, math.pi), self.period_s);
-right_m_s2 = add(mul(mul(omega, omega), left), mul(mul(mul(2.0, self.damping), omega), leftward));
-return PieceProgress(add(mul(east, piece.c), mul(north, piece.s)), left, right_m_s2);
-}
-_arc_progress(piece, offset) {
-let angle, cross, half, out_east, out_north, right_m_s2, turned;
-const self = this;
-half = div(mul(0.5, piece.length_m), offset.radius_m);
-[out_east, out_north] = iter([mul(piece.u, piece.s), mul(neg(piece.u), piece.c)]);
-cross = sub(mul(out_east, offset.out_north), mul(out_north, offset.out_east));
-turned = mul(piece.u, math.atan2(cross, add(mul(out_east, offset.out_east), mul(out_north, offset.out_north))));
-angle = add(half, math.remainder(sub(turned, half), mul(2.0, math.pi)));
-right_m_s2 = circle_demand(offset, neg(piece.u), self.period_s, self.damping);
-return PieceProgress(mul(angle, offset.radius_m), offset.outside_m, right_m_s2);
-}
-_follow(progress) {
-let V, current, later, next_phase, remaining_s, to_join_s;
-const self = this;
-[current, ...later] = iter(self._pieces);
-V = self.aircraft.airspeed_m_s;
-remaining_s = div(sub(current.length_m, progress.along_m), V);
-to_join_s = add(remaining_s, div(sum(list(iter(later)).map((piece) => piece.length_m)), V));
-next_phase = phase_of_control(next(list(iter(later)).map((piece) => piece.u), null));
-return Demand(progress.right_m_s2, phase_of_control(current.u), to_join_s, next_phase, remaining_s);
-}
-}, []);
-
-const Kinematic = struct(class extends Values {
-constructor(start, aircraft, wind = null) {
-super();
-const self = this;
-self._airspeed_m_s = aircraft.airspeed_m_s;
-self._limit = div(aircraft.airspeed_m_s, aircraft.turn_radius_m);
-self._wind = ((wind == null) ? CALM : wind).velocity_m_s;
-self._pose = PlanarPose(start.east_m, start.north_m, ...iter(heading_vector(start.heading_deg)));
-const chained1 = 0.0;
-self._rate = chained1;
-self._time_s = chained1;
-}
-true_state() {
-let V, bank_deg, c, e, n, s, x, y;
-const self = this;
-[V, [x, y, c, s], [e, n]] = iter([self._airspeed_m_s, self._pose, self._wind]);
-bank_deg = bank_at_rate(neg(self._rate), V);
-return State(self._time_s, x, y, heading_of(c, s), bank_deg, add(mul(V, c), e), add(mul(V, s), n), V);
-}
-measured_state() {
-const self = this;
-return self.true_state();
-}
-advance(command, dt) {
-const self = this;
-not_negative("dt", dt, "seconds");
-self._rate = clip(neg(math.radians(command.turn_rate_deg_s)), self._limit);
-self._pose = constant_turn(self._pose, self._airspeed_m_s, self._rate, dt, self._wind);
-self._time_s = add(self._time_s, dt);
-}
-}, []);
-
-const SettlingMonitor = struct(class extends Values {
-constructor(orbit, band) {
-super();
-const self = this;
-[self._orbit, self._band, self._directions] = iter([orbit, band, item(DIRECTIONS, orbit.turn)]);
-const chained1 = 0.0;
-self._azimuth_deg = chained1;
-self._in_band_deg = chained1;
-self._since_joining_deg = chained1;
-self.turned_deg = chained1;
-self._counted_deg = null;
-self._direction = 0;
-const chained2 = math.nan;
-self.entered_s = chained2;
-self.joined_s = chained2;
-}
-get settled() {
-const self = this;
-return ge(mul(self._direction, self._in_band_deg), 360.0);
-}
-update(state) {
-let azimuth_deg, direction, flown_deg, near, offset;
-const self = this;
-[offset, azimuth_deg] = iter([circle_offset(state, self._orbit), self._azimuth_deg]);
-self._azimuth_deg = offset.azimuth_deg;
-[direction, flown_deg] = iter([self._direction_in(offset, 1.0), math.remainder(sub(self._azimuth_deg, azimuth_deg), 360.0)]);
-if (lt(abs(self._since_joining_deg), 360.0)) {
-near = ne(self._direction_in(offset, WIDE_BAND), 0);
-self._update_joining(state, direction, flown_deg, near);
-}
-if ((ne(direction, self._direction) || eq(direction, 0))) {
-[self._direction, self._in_band_deg, self.entered_s] = iter([direction, 0.0, (truth(direction) ? state.time_s : math.nan)]);
-} else {
-self._in_band_deg = add(self._in_band_deg, flown_deg);
-}
-}
-_update_joining(state, direction, flown_deg, near) {
-const self = this;
-if ((truth(near) || (self._counted_deg == null))) {
-self._counted_deg = state.heading_deg;
-}
-if (!truth(near)) {
-self._count_turn(self._counted_deg, state.heading_deg);
-[self._since_joining_deg, self.joined_s] = iter([0.0, math.nan]);
-} else {
-if (!truth(math.isnan(self.joined_s))) {
-self._since_joining_deg = add(self._since_joining_deg, flown_deg);
-} else {
-if (ne(direction, 0)) {
-self.joined_s = state.time_s;
-}
-}
-}
-}
-_count_turn(from_deg, to_deg) {
-let turned_deg;
-const self = this;
-turned_deg = abs(math.remainder(sub(to_deg, from_deg), 360.0));
-if (ge(turned_deg, COUNTED_DEG)) {
-self._counted_deg = to_deg;
-self.turned_deg = add(self.turned_deg, turned_deg);
-}
-}
-_direction_in(offset, factor) {
-const self = this;
-return next(list(iter(self._directions)).filter((direction) => truth(self._band.has(offset, direction, factor))).map((direction) => direction), 0);
-}
-}, []);
-
-const Band = struct(class extends Values {
-constructor(radial = 0.05, course_deg = 5.0) {
-super();
-this.radial = radial;
-this.course_deg = course_deg;
-this.__post_init__();
-}
-__post_init__() {
-const self = this;
-positive("radial", self.radial, "radii");
-positive("course_deg", self.course_deg, "degrees");
-}
-has(offset, side, factor = 1.0) {
-const self = this;
-return self.is_within(offset.outside_m, offset.course_error_deg(side), offset.radius_m, factor);
-}
-is_within(outside_m, course_error_deg, radius_m, factor = 1.0) {
-let near;
-const self = this;
-near = le(abs(outside_m), mul(mul(factor, self.radial), radius_m));
-return and(near, () => le(abs(course_error_deg), mul(factor, self.course_deg)));
-}
-}, ["radial", "course_deg"], 'Band');
-
 const Leg = struct(class extends Values {
 constructor(pose, orbit, exit_to, hold_s = 0.0, turns = 0.0, altitude_m = null) {
 super();
@@ -4187,8 +3805,8 @@ for ([motion, bound] of rows(zip(motions, accuracy.motion))) {
 off = 0.0;
 for (piece of iter(trajectory.pieces)) {
 for (s of iter(piece.instants)) {
-rise = sub(motion.quantity(piece.at(add(s, accuracy_STEP))), motion.quantity(piece.at(sub(s, accuracy_STEP))));
-off = max(off, abs(sub(div(rise, mul(2.0, accuracy_STEP)), motion.rate(piece, piece.at(s)))));
+rise = sub(motion.quantity(piece.at(add(s, STEP))), motion.quantity(piece.at(sub(s, STEP))));
+off = max(off, abs(sub(div(rise, mul(2.0, STEP)), motion.rate(piece, piece.at(s)))));
 }
 }
 yield Residual(motion.name, motion.equation, off, bound);
@@ -4311,209 +3929,6 @@ function _passes(problem, first) {
 let r, unit_s;
 [unit_s, r] = iter([problem.time_unit_s, problem.aircraft.turn_radius_m]);
 return join_("; ", list(iter(first.passed)).map((one) => `by samples from ${format(mul(one.begin, unit_s), `.6g`)} to ${format(mul(one.end, unit_s), `.6g`)} s, ${format(mul(one.gap, r), `.2g`)} m from reach`));
-}
-
-function is_plausible(state) {
-let airspeed, angles, bank, east, heading, north, position, size, time_s, velocity_east, velocity_north;
-[time_s, east, north, heading, bank, velocity_east, velocity_north, airspeed] = iter(state);
-[position, angles] = iter([add(abs(east), abs(north)), add(abs(heading), abs(bank))]);
-size = add(add(add(add(position, angles), abs(velocity_east)), abs(velocity_north)), abs(airspeed));
-return (lt(abs(time_s), LATEST_S) && lt(size, LARGEST_VALUE));
-}
-
-const Demand = struct(class extends Tuple {
-constructor(right_m_s2, phase, time_to_join_s = math.nan, next_phase = Phase.HOLD, next_in_s = math.nan) {
-super();
-this.right_m_s2 = right_m_s2;
-this.phase = phase;
-this.time_to_join_s = time_to_join_s;
-this.next_phase = next_phase;
-this.next_in_s = next_in_s;
-
-}
-}, ["right_m_s2", "phase", "time_to_join_s", "next_phase", "next_in_s"], 'Demand');
-
-const Phase = enumeration({ LEFT: 'turn left', STRAIGHT: 'fly straight', RIGHT: 'turn right', HOLD: 'hold', NO_DATA: 'no data' });
-
-function clip(value, limit) {
-return (gt(value, limit) ? limit : (lt(value, neg(limit)) ? neg(limit) : value));
-}
-
-function bank_at_rate(rate, airspeed_m_s) {
-return math.degrees(math.atan(div(mul(rate, airspeed_m_s), STANDARD_GRAVITY_M_S2)));
-}
-
-function solve_plan(pose, orbit, aircraft, wind = null, tolerance_m = 0.0, slot = null) {
-let _, best, problem;
-problem = Problem(pose, orbit, aircraft, ((wind == null) ? CALM : wind), tolerance_m);
-if ((slot == null)) {
-return fastest(problem);
-}
-[best, ..._] = iter(arrivals(problem, slot));
-return best;
-}
-
-const Command = struct(class extends Tuple {
-constructor(turn_rate_deg_s, bank_deg, phase, time_to_join_s, turn, next_phase, next_in_s) {
-super();
-this.turn_rate_deg_s = turn_rate_deg_s;
-this.bank_deg = bank_deg;
-this.phase = phase;
-this.time_to_join_s = time_to_join_s;
-this.turn = turn;
-this.next_phase = next_phase;
-this.next_in_s = next_in_s;
-
-}
-}, ["turn_rate_deg_s", "bank_deg", "phase", "time_to_join_s", "turn", "next_phase", "next_in_s"], 'Command');
-
-function rate_at_bank(bank_deg, airspeed_m_s) {
-return div(mul(STANDARD_GRAVITY_M_S2, math.tan(math.radians(bank_deg))), airspeed_m_s);
-}
-
-function circle_offset(state, orbit) {
-let circle, place, velocity;
-circle = orbit.after(state.time_s);
-place = [sub(state.east_m, circle.east_m), sub(state.north_m, circle.north_m)];
-velocity = [sub(state.velocity_east_m_s, circle.velocity_east_m_s), sub(state.velocity_north_m_s, circle.velocity_north_m_s)];
-return offset_at(place, velocity, state.heading_deg, circle.radius_m);
-}
-
-function centre_angle(offset) {
-return math.atan2(offset.clockwise_m_s, neg(offset.outward_m_s));
-}
-
-function capture_demand(offset, nu, period_s, damping) {
-let speed;
-speed = max(offset.speed_m_s, LEAST_SPEED_M_S);
-return mul(div(mul(mul(mul(mul(4.0, damping), damping), speed), speed), div(mul(mul(damping, period_s), speed), math.pi)), math.sin(clip(nu, mul(0.5, math.pi))));
-}
-
-function circle_demand(offset, side, period_s, damping) {
-let correction, forward, omega;
-omega = div(mul(2.0, math.pi), period_s);
-forward = mul(side, offset.clockwise_m_s);
-correction = add(mul(mul(omega, omega), offset.outside_m), mul(mul(mul(2.0, damping), omega), offset.outward_m_s));
-if ((gt(offset.outward_m_s, 0.0) && lt(forward, 0.0))) {
-correction = max(correction, 0.0);
-}
-return mul(side, add(correction, div(mul(forward, forward), max(mul(0.5, offset.radius_m), offset.distance_m))));
-}
-
-function demand_phase(right_m_s2, offset, side) {
-if (truth(BAND.has(offset, side))) {
-return Phase.HOLD;
-}
-if (le(abs(right_m_s2), mul(STANDARD_GRAVITY_M_S2, math.tan(math.radians(LEVEL_DEG))))) {
-return Phase.STRAIGHT;
-}
-return (gt(right_m_s2, 0.0) ? Phase.RIGHT : Phase.LEFT);
-}
-
-function advised_gains(orbit, aircraft, roll_time_s = ROLL_TIME_S) {
-let kappa;
-kappa = div(aircraft.airspeed_m_s, aircraft.turn_radius_m);
-return FieldGains(largest_k(div(orbit.radius_m, aircraft.turn_radius_m)), kappa, mul(mul(kappa, 3.0), roll_time_s));
-}
-
-const FieldGains = struct(class extends Tuple {
-constructor(k, kappa, epsilon) {
-super();
-this.k = k;
-this.kappa = kappa;
-this.epsilon = epsilon;
-
-}
-}, ["k", "kappa", "epsilon"], 'FieldGains');
-
-function commanded_course_rate(offset, side, gains) {
-let desired, error, forward, slope;
-slope = div(mul(gains.k, offset.outside_m), offset.radius_m);
-forward = mul(side, offset.clockwise_m_s);
-desired = add(div(forward, max(offset.distance_m, AT_CENTRE_M)), div(div(mul(gains.k, offset.outward_m_s), offset.radius_m), add(1.0, mul(slope, slope))));
-error = math.remainder(sub(sub(math.atan2(forward, offset.outward_m_s), mul(0.5, math.pi)), math.atan(slope)), mul(2.0, math.pi));
-return mul(side, sub(desired, mul(gains.kappa, clip(div(error, gains.epsilon), 1.0))));
-}
-
-const DubinsPiece = struct(class extends Tuple {
-constructor(u, length_m, east_m, north_m, c, s) {
-super();
-this.u = u;
-this.length_m = length_m;
-this.east_m = east_m;
-this.north_m = north_m;
-this.c = c;
-this.s = s;
-
-}
-}, ["u", "length_m", "east_m", "north_m", "c", "s"], 'DubinsPiece');
-
-function offset_at(place, velocity, heading_deg, radius_m) {
-let clockwise, distance, east_m, north_m, out_east, out_north, outward, velocity_east, velocity_north;
-[[east_m, north_m], [velocity_east, velocity_north]] = iter([place, velocity]);
-distance = math.hypot(east_m, north_m);
-if (gt(distance, AT_CENTRE_M)) {
-[out_east, out_north] = iter([div(east_m, distance), div(north_m, distance)]);
-} else {
-[out_east, out_north] = iter(heading_vector(heading_deg));
-}
-outward = add(mul(velocity_east, out_east), mul(velocity_north, out_north));
-clockwise = sub(mul(velocity_east, out_north), mul(velocity_north, out_east));
-return CircleOffset(radius_m, distance, out_east, out_north, outward, clockwise);
-}
-
-const PieceProgress = struct(class extends Tuple {
-constructor(along_m, crosstrack_m, right_m_s2) {
-super();
-this.along_m = along_m;
-this.crosstrack_m = crosstrack_m;
-this.right_m_s2 = right_m_s2;
-
-}
-}, ["along_m", "crosstrack_m", "right_m_s2"], 'PieceProgress');
-
-function phase_of_control(control) {
-return ((control == null) ? Phase.HOLD : item(PHASES, control));
-}
-
-const PlanarPose = struct(class extends Tuple {
-constructor(x, y, c, s) {
-super();
-this.x = x;
-this.y = y;
-this.c = c;
-this.s = s;
-
-}
-}, ["x", "y", "c", "s"], 'PlanarPose');
-
-const State = struct(class extends Tuple {
-constructor(time_s, east_m, north_m, heading_deg, bank_deg, velocity_east_m_s, velocity_north_m_s, airspeed_m_s) {
-super();
-this.time_s = time_s;
-this.east_m = east_m;
-this.north_m = north_m;
-this.heading_deg = heading_deg;
-this.bank_deg = bank_deg;
-this.velocity_east_m_s = velocity_east_m_s;
-this.velocity_north_m_s = velocity_north_m_s;
-this.airspeed_m_s = airspeed_m_s;
-
-}
-}, ["time_s", "east_m", "north_m", "heading_deg", "bank_deg", "velocity_east_m_s", "velocity_north_m_s", "airspeed_m_s"], 'State');
-
-function constant_turn(pose, speed, rate, time, air = STILL) {
-let c, ch, chord, east, half, north, s, sh, x, y;
-[[x, y, c, s], [east, north]] = iter([pose, air]);
-[x, y] = iter([add(x, mul(east, time)), add(y, mul(north, time))]);
-half = mul(mul(0.5, rate), time);
-if (lt(abs(half), SMALLEST_TURN)) {
-return PlanarPose(add(x, mul(mul(speed, time), c)), add(y, mul(mul(speed, time), s)), c, s);
-}
-[ch, sh] = iter([math.cos(half), math.sin(half)]);
-[c, s] = iter([sub(mul(c, ch), mul(s, sh)), add(mul(s, ch), mul(c, sh))]);
-chord = mul(div(mul(2.0, speed), rate), sh);
-return PlanarPose(add(x, mul(chord, c)), add(y, mul(chord, s)), sub(mul(c, ch), mul(s, sh)), add(mul(s, ch), mul(c, sh)));
 }
 
 function _outside(exit_to, orbit) {
@@ -5054,7 +4469,7 @@ return div(mul(ROUNDING, metres), maneuver.aircraft.turn_radius_m);
 }
 
 function _of_difference(third_derivative, rounding) {
-return add(mul(div(mul(accuracy_STEP, accuracy_STEP), 6.0), third_derivative), div(rounding, accuracy_STEP));
+return add(mul(div(mul(STEP, STEP), 6.0), third_derivative), div(rounding, STEP));
 }
 
 function _turned_by_last_switch(trajectory, end, length) {
@@ -5331,45 +4746,6 @@ this.gap = gap;
 
 }
 }, ["begin", "end", "gap"], 'NearPass');
-
-function largest_k(tightest) {
-let k, slopes;
-slopes = list(iter(range(1, 61))).map((i) => mul(0.05, i));
-k = LARGEST_K;
-while ((gt(k, 0.1) && lt(min(list(iter(slopes)).map((slope) => field_rate(add(1.0, div(slope, k)), k))), mul(neg(FIELD_SHARE), tightest)))) {
-k = mul(k, 0.98);
-}
-return k;
-}
-
-const CircleOffset = struct(class extends Tuple {
-constructor(radius_m, distance_m, out_east, out_north, outward_m_s, clockwise_m_s) {
-super();
-this.radius_m = radius_m;
-this.distance_m = distance_m;
-this.out_east = out_east;
-this.out_north = out_north;
-this.outward_m_s = outward_m_s;
-this.clockwise_m_s = clockwise_m_s;
-
-}
-get outside_m() {
-const self = this;
-return sub(self.distance_m, self.radius_m);
-}
-get speed_m_s() {
-const self = this;
-return math.hypot(self.outward_m_s, self.clockwise_m_s);
-}
-get azimuth_deg() {
-const self = this;
-return math.degrees(math.atan2(self.out_east, self.out_north));
-}
-course_error_deg(side) {
-const self = this;
-return math.degrees(math.atan2(mul(neg(side), self.outward_m_s), mul(side, self.clockwise_m_s)));
-}
-}, ["radius_m", "distance_m", "out_east", "out_north", "outward_m_s", "clockwise_m_s"], 'CircleOffset');
 
 const WayOut = struct(class extends Tuple {
 constructor(side, phase, hold, width, time) {
@@ -5981,12 +5357,6 @@ this.time = time;
 
 }
 }, ["width", "time"], 'Stop');
-
-function field_rate(distance, k) {
-let slope;
-slope = mul(k, sub(distance, 1.0));
-return div(sub(div(1.0, distance), div(mul(k, slope), add(1.0, mul(slope, slope)))), math.sqrt(add(1.0, mul(slope, slope))));
-}
 
 function _hold_until(exit_time, first, out, scene, problem) {
 let entry, join_s, k, least, time, width;
@@ -7680,8 +7050,6 @@ const LARGEST_GAP = 3.0;
 const VANISHING = 0.001;
 const STEPS = 100;
 const LAP_STEPS = 120;
-const STEP = 0.05;
-const MOST_STEPS = 6000;
 const LEAST_CORNERS = 3;
 const TOUCH_M = 1e-06;
 const MAX_POINTS = 20000;
@@ -7692,9 +7060,6 @@ const CHORD_ERROR = 0.002;
 const OPTIONS = new Map([["pose", "--pose"], ["orbit", "--orbit"], ["turn", "--turn"], ["airspeed_m_s", "--airspeed"], ["max_bank_deg", "--bank"], ["min_turn_radius_m", "--turn-radius"], ["max_turn_rate_deg_s", "--turn-rate"], ["wind", "--wind"], ["orbit_velocity_m_s", "--orbit-velocity"], ["tolerance_m", "--tolerance"], ["exit_to", "--exit-to"], ["hold_s", "--hold"], ["turns", "--turns"], ["start_altitude_m", "--altitude"], ["altitude_m", "--to-altitude"], ["climb_rate_m_s", "--climb-rate"], ["descent_rate_m_s", "--descent-rate"], ["slot phase_deg", "--slot"], ["slot at_s", "--slot-at"]]);
 const IN_STILL_AIR = Formulation([Condition("target", "x(T) = 0, y(T) = R or -R (8)-(10)", target), Condition("join", "the last pose, reduced by (2), is the target", join), Condition("turn", "the circle is held as asked for", turn)], [EquationOfMotion("motion", "x' = 1 + u y, y' = -u x (7)", ((now) => now.reduced), ((piece, now) => sub(1.0, mul(mul(new Complex(0.0, 1.0), piece.u), now.reduced)))), EquationOfMotion("adjoint", "psi1' = u psi2, psi2' = -u psi1 (12)", ((now) => now.psi), ((piece, now) => mul(mul(neg(new Complex(0.0, 1.0)), piece.u), now.psi))), EquationOfMotion("slope", "phi' = -psi2 (17)", ((now) => now.phi), ((piece, now) => neg(now.psi2)))], new Map([["norm", "|psi| = 1 (18)"], ["multiplier", "lambda >= 0"], ["sign", "u = sign phi, u = 0 only where phi = 0 (13)"], ["hamiltonian", "|phi| + psi1 = lambda (14)"], ["psi1", "psi1 <= lambda (16)"], ["transversality", "psi1(T) (1 + u side R) = lambda"]]), [Condition("switch", "phi = 0, psi1 = lambda at each switch", switch_), Condition("middle arc", "lasts 2 pi - 2 acos lambda, more than pi", middle_arc), Condition("slopes", "x1/y1 = -x/y (19)", slopes), Condition("line", "y = 0 while u = 0: a line through the centre", line), Condition("axis", "|psi2| times the |y| reached beyond = 0 where y changes sign", axis), Condition("last arc", "lasts pi/3 at most", partial(last_arc, { tight: true })), Condition("last arc", "lasts acos(1/(1 + R)) at most", partial(last_arc, { tight: false }))], GradientEquations("lambda grad T = -psi", "1 + min grad T . f = 0"));
 const IN_WIND = Formulation([Condition("target", "|q(T)| = R", distance_from_circle), Condition("course", "q.(e + w) = 0 at T: along the circle (1)", course), Condition("join", "the last pose over the ground is where the circle is then", conditions_join), Condition("turn", "the circle is held as asked for", turn_as_flown)], [EquationOfMotion("motion", "q' = e + w", ((now) => now.q), ((piece, now) => add(now.e, piece.w))), EquationOfMotion("turning", "e' = u J e", ((now) => now.e), ((piece, now) => mul(mul(new Complex(0.0, 1.0), piece.u), now.e))), EquationOfMotion("slope", "f' = -p.Je", ((now) => now.phi), ((piece, now) => neg(now.psi2)))], new Map([["norm", "|p| = 1"], ["multiplier", "lambda + p.w >= 0 (4)"], ["sign", "u = sign f, u = 0 only where f = 0 (4)"], ["hamiltonian", "|f| + p.e = lambda (4)"], ["transversality", "p.(e + w) + u h k (lambda - p.e) = 0 at T (5)"]]), [], GradientEquations("(lambda + p.w) grad T = -(p, f)", "1 + min grad T . (e + w, u) = 0"));
-const SHORTEST_PERIOD_S = 10.0;
-const PERIOD = 4.0;
-const BAND = Band();
 const HOLD_LETTERS = new Map([[Turn.CW, "R"], [Turn.CCW, "L"]]);
 const SAME_CORNER_M = 1e-06;
 const LEAST_MARGIN_M = 5.0;
@@ -7729,18 +7094,6 @@ const BISECTOR = "the adjoint is unique: the two switches determine it";
 const ANY = "fewer than two switches have many adjoints: this is one";
 const DOUBLE_ROOT = 8.0;
 const REACHED = 1e-12;
-const PERIOD_S = 17.0;
-const DAMPING = 0.75;
-const AWAY_HEADING_COS = math.cos(math.radians(60.0));
-const AWAY_ANGLE = mul(0.9, math.pi);
-const LEAST_CRAB_COS = 0.5;
-const RESERVE = 0.1;
-const LARGEST_OFFSET = 0.5;
-const ABSENT = -2;
-const SHORT_M = 0.001;
-const DIRECTIONS = new Map([[Turn.CW, [1]], [Turn.CCW, [-1]], [Turn.EITHER, [1, -1]]]);
-const WIDE_BAND = 2.0;
-const COUNTED_DEG = 10.0;
 const CHORD_RAD = 0.1;
 const PARTS = new Map([["enter", "ff005ed5"], ["hold", "ff000000"], ["leave", "ffb27200"]]);
 const MOST_LEVELS = 16;
@@ -7756,20 +7109,11 @@ const NOT_PLANNED = "not proved: another maneuver, as fast up to rounding, is th
 const UNIT = pow(2.0, -52);
 const OF_SECONDS = pow(2.0, -50);
 const BY_THEOREMS = "evidence/docs/bridging.md, theorems 5 and 6, for the reduced state";
-const accuracy_STEP = pow(2.0, -15);
+const STEP = pow(2.0, -15);
 const BESIDE_LAST_ARC = "the tolerance counts the start as on the last arc, but T without a tolerance does not";
 const SHORT = 0.0001;
 const BEGIN = 129;
 const FINEST = 1e-09;
-const LATEST_S = 1000000000000.0;
-const LARGEST_VALUE = 1000000000.0;
-const LEAST_SPEED_M_S = 1.0;
-const LEVEL_DEG = 1.0;
-const ROLL_TIME_S = 0.5;
-const AT_CENTRE_M = 0.1;
-const PHASES = new Map([[1, Phase.LEFT], [0, Phase.STRAIGHT], [-1, Phase.RIGHT]]);
-const STILL = [0.0, 0.0];
-const SMALLEST_TURN = pow(2.0, -54);
 const MOST_STATES = 12000;
 const legs_MOST_TURNS = 255;
 const LARGEST_TURNS_RADIUS_M = 255.0;
@@ -7795,8 +7139,6 @@ const slot_check_SAMPLES = 2001;
 const NEAR = 0.001;
 const MINIMA = 20;
 const ZOOMS = 12;
-const LARGEST_K = 10.0;
-const FIELD_SHARE = 0.9;
 const MOST_HELD = mul(100000.0, math.tau);
 const SAME_TIME = 1e-09;
 const STILL_AIR_GAP_M = mul(10.0, TOUCH_M);
@@ -7850,9 +7192,10 @@ const NEIGHBOURS = 6;
 const DENSE = 32;
 const PIECE_M = 0.001;
 const OUTER_CONTROLS = [[1, 1], [-1, -1], [1, -1], [-1, 1]];
+const ABSENT = -2;
 const SAME_LENGTH = 1e-09;
 const WHOLE_TURN = 1e-09;
 const elongation_HALVINGS = 70;
 const BESIDE = 1e-07;
 
-export { plan, certificate, first_maneuver, lap, race, leg_plan, leg_fence_check, leg_file, fence_check, clear_plan, clear_maneuver, CircleZone, PolygonZone, Fence, _check_points, FILE_FORMATS, SaveArguments, AltitudeDatum, AUTOPILOTS, JSON_FIELDS, Pose, Orbit, Aircraft, Wind, Problem, Slot, slot_pose, heading_vector, Maneuver, drawn_svg, LocalFrame, PlacedProblem, _kind, NARROW, SHARE, JUMP, LARGEST_GAP, VANISHING };
+export { plan, certificate, first_maneuver, lap, leg_plan, leg_fence_check, leg_file, fence_check, clear_plan, clear_maneuver, CircleZone, PolygonZone, Fence, _check_points, FILE_FORMATS, SaveArguments, AltitudeDatum, AUTOPILOTS, JSON_FIELDS, Pose, Orbit, Aircraft, Wind, Problem, Slot, slot_pose, heading_vector, Maneuver, drawn_svg, LocalFrame, PlacedProblem, _kind, NARROW, SHARE, JUMP, LARGEST_GAP, VANISHING };

@@ -303,7 +303,7 @@ export { makeComplex as complex };
 const makeComplex = (real, imag) => (real instanceof Complex ? real : new Complex(real, imag));
 const DEGREE = Math.PI / 180;
 export const math = {
-  ...Object.fromEntries(["sin", "cos", "tan", "acos", "asin", "atan", "atan2", "sqrt", "hypot", "floor", "ceil", "trunc"].map((name) => [name, Math[name]])),
+  ...Object.fromEntries(["sin", "cos", "tan", "acos", "asin", "atan2", "sqrt", "hypot", "floor", "ceil"].map((name) => [name, Math[name]])),
   pi: Math.PI,
   tau: 2 * Math.PI,
   dist: ([x, y], [a, b]) => Math.hypot(a - x, b - y),
@@ -312,12 +312,6 @@ export const math = {
   isfinite: Number.isFinite,
   isnan: Number.isNaN,
   fmod: (a, b) => a % b,
-  /** The rest of a division that is rounded to the nearest whole number. */
-  remainder(a, b) {
-    const rest = a % b;
-    return Math.abs(rest) * 2 > b ? rest - Math.sign(rest) * b : rest;
-  },
-  pow: (a, b) => a ** b,
   radians: (a) => a * DEGREE,
   degrees: (a) => a * (180 / Math.PI),
   copysign: (a, b) => (b < 0 || Object.is(b, -0) ? -Math.abs(a) : Math.abs(a)),

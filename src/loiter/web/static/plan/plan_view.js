@@ -23,14 +23,13 @@ import { breachMark, fenceBoxes, fenceLayer } from "./fence_layer.js";
 import { exitLayer } from "./exit_layer.js";
 import { drawMarks } from "./marks.js";
 import { drawBest, drawBlocked, drawOther, placeCallout } from "./paths.js";
-import { raceLayer } from "./race_layer.js";
 import { slotBoxes, slotLayer } from "./slot_layer.js";
 import { dialBox } from "./wind_handle.js";
 
 /** @param {Store} store @param {Actions} actions @param {PlanCamera} camera */
 export function planView(store, actions, camera) {
   const root = byId("plan", SVGSVGElement);
-  const layers = svgLayers("grid", "fence", "circle", "others", "rivals", "blocked", "best", "slot", "marks", "wind", "handles");
+  const layers = svgLayers("grid", "fence", "circle", "others", "blocked", "best", "slot", "marks", "wind", "handles");
   const { handles, ...below } = layers;
   const ghost = svg("g", { class: "ghost" }, [svg("path", { d: AEROPLANE })]);
   const moving = svg("circle", { class: "moving" });
@@ -55,7 +54,6 @@ export function planView(store, actions, camera) {
   watchPointed(layers.others, ".other", actions.highlight);
   watchHighlight(root, layers.others, callout, store);
   watchGhost(ghost, moving, store);
-  raceLayer(layers.rivals, store, actions);
   slotLayer(root, layers.slot, handles, store);
 }
 

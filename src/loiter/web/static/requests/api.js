@@ -38,11 +38,8 @@ export const planOf = (scene) => answer(() => engine.plan(scene));
 /** The way in, round and out of a scene with a leg. @param {Scene} scene */
 export const legOf = (scene) => answer(() => engine.legPlan(scene));
 
-/** Rounds of the circle after the plan: a track. @param {Scene} scene @param {number} [laps] */
-export const lapOf = (scene, laps) => answer(() => engine.lap(scene, laps));
-
-/** Other guidance laws from the start of the plan. @param {Scene} scene */
-export const raceOf = (scene) => answer(() => engine.race(scene));
+/** A round of the circle after the plan: a track. @param {Scene} scene */
+export const lapOf = (scene) => answer(() => engine.lap(scene));
 
 /** The certificate of the plan. @param {Scene} scene */
 export const certificateOf = (scene) => answer(() => engine.certificate(scene));

@@ -8,7 +8,7 @@
 import { refusalOf } from "../fields/field_names.js";
 import { NO_MESSAGE } from "../state/page_state.js";
 import { zonesOf } from "../scene/fence.js";
-import { Problem, fenceCheckOf, lapOf, legOf, planOf, raceOf } from "./api.js";
+import { Problem, fenceCheckOf, legOf, planOf } from "./api.js";
 
 /**
  * A function that applies changes to the state, with the plan of the scene.
@@ -36,7 +36,6 @@ function outcome(state) {
       fence,
       clear: null,
       lap: null,
-      race: null,
       failure: null,
       proof: null,
       faults: { ...state.faults, certificate: null },
@@ -65,7 +64,6 @@ function failed({ scene, leg, playback, fieldErrors, failure, message, units }, 
   return {
     failure: { headline: "No plan for this scene", sentence, fittedRadius_m },
     lap: null,
-    race: null,
     announced: null,
     message: failure ? message : NO_MESSAGE,
     playback: { ...playback, playing: false },
@@ -75,14 +73,4 @@ function failed({ scene, leg, playback, fieldErrors, failure, message, units }, 
     leg: scene.leg && leg,
     requests: { plan: "failed", certificate: "stale", map: "stale", clear: "idle" },
   };
-}
-
-/** The race of a plan, and as many laps after it as the race takes. @param {PageState} state @returns {Partial<PageState>} */
-export function raceRequest({ scene, answer, clear }) {
-  if (!answer || scene.leg) return {};
-  const race = raceOf(scene);
-  if (clear?.maneuver) return { race, lap: clear.lap };
-  const end_s = Math.max(...race.map(({ track }) => track.time_s.at(-1) ?? 0));
-  const lap_s = (lapOf(scene).time_s.at(-1) ?? 0) - answer.duration_s;
-  return { race, lap: lapOf(scene, Math.max(1, Math.ceil((end_s - answer.duration_s) / lap_s))) };
 }

@@ -9,7 +9,7 @@
 import { PAUSE_MS, debounced } from "../shared/dom.js";
 import { clearRequest } from "./clear_request.js";
 import { certificateRequest, mapRequest } from "./pause_requests.js";
-import { planRequest, raceRequest } from "./plan_request.js";
+import { planRequest } from "./plan_request.js";
 
 /** @param {Store} store */
 export function createRequests(store) {
@@ -24,7 +24,6 @@ export function createRequests(store) {
     askMap(answer);
     askCertificate();
     askClear();
-    if (store.get().racing) store.update(raceRequest(store.get()));
   });
   store.watch(
     ({ revision }) => [revision],

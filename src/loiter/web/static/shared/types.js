@@ -96,11 +96,6 @@
  * @property {number[]} x
  * @property {number[]} y
  *
- * @typedef {object} Racer  the flight of another guidance law from the same start
- * @property {string} law
- * @property {number | null} joined_s
- * @property {Omit<Track, "x" | "y">} track
- *
  * @typedef {"L" | "S" | "R"} Letter
  * @typedef {object} Segment
  * @property {Letter} letter

@@ -10,7 +10,6 @@
  * @typedef {ReturnType<typeof createActions>} Actions
  */
 import { lapOf } from "../requests/api.js";
-import { raceRequest } from "../requests/plan_request.js";
 import { NO_MESSAGE, durationOf, endOf } from "./page_state.js";
 import { createStepper } from "./steps.js";
 
@@ -90,13 +89,6 @@ export function createActions(store, requests, latency) {
       if (playing && !lap && !scene.leg) store.update({ lap: clear?.maneuver ? clear.lap : lapOf(scene) });
       setPlayback({ playing, time_s: playing && time_s >= endOf(store.get()) ? 0 : time_s });
     },
-    /** Begin or end the race with other guidance laws. @param {boolean} racing */
-    race(racing) {
-      const { answer, playback } = store.get();
-      if (!racing || !answer) return store.update({ racing, race: null });
-      store.update({ racing, ...raceRequest(store.get()), playback: { ...playback, playing: true, time_s: 0 } });
-    },
-
     /** @param {number} time_s */
     seek: (time_s) => setPlayback({ time_s: Math.min(durationOf(store.get()), Math.max(0, time_s)) }),
     /** @param {number} speed times real time */

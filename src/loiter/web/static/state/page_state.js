@@ -53,9 +53,7 @@
  * @property {number} pausedRevision  number of the newest scene after which a drag has paused
  * @property {Record<"plan" | "certificate" | "map" | "clear", Status>} requests
  * @property {Answer | null} answer  the newest plan
- * @property {import("../shared/types.js").Track | null} lap  rounds of the circle after joining, once they are played
- * @property {boolean} racing  whether other guidance laws are flown too
- * @property {import("../shared/types.js").Racer[] | null} race  their flights, once they are computed
+ * @property {import("../shared/types.js").Track | null} lap  a round of the circle after joining, once it is played
  * @property {{check: FenceCheck | null, refusal: string} | null} fence  whether the plan stays clear of the scene's
  *   fence, or why that is not known
  * @property {import("../shared/types.js").ClearEntry | null} clear  the search for a clear entry, where the plan is not
@@ -99,8 +97,6 @@ export const INITIAL_STATE = {
   requests: { plan: "idle", certificate: "idle", map: "idle", clear: "idle" },
   answer: null,
   lap: null,
-  racing: false,
-  race: null,
   fence: null,
   clear: null,
   leg: null,
