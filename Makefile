@@ -9,7 +9,7 @@
 # make site   the page as static files for any address, in build/site; ADDRESS=https://... for the pictures of links
 # make firefox  the same in Firefox, if it is installed: widths, appearances, axe, without a network
 # make notebooks  run the notebooks of docs/notebooks and write their outputs
-# make generate  translate the kernel and the law from Python to C, JavaScript and Lua, for package, page and autopilots
+# make generate  translate the kernel and the law from Python to C, JavaScript and Lua, and build the page
 # make pins   rewrite the requirement files from pyproject.toml
 PYTHON ?= $(or $(shell command -v python3.11),python3)
 BIN := .venv/bin
@@ -39,14 +39,14 @@ $(BIN)/python:
 	$(BIN)/python -m pip install -q --disable-pip-version-check -r requirements/dev.txt
 	@touch $@
 
-# What the documentation needs; the page in it is built with what the tests need.
+# What the documentation needs.
 .venv/docs.stamp: .venv/base.stamp requirements/docs.txt
 	$(BIN)/python -m pip install -q --disable-pip-version-check -r requirements/docs.txt
 	@touch $@
 
 # Tools that check the page: TypeScript and axe. No lock file is needed: the versions are exact.
-.venv/node.stamp: .venv/dev.stamp tests/web/package.json
-	@mkdir -p .venv/node && cp tests/web/package.json .venv/node/
+.venv/node.stamp: .venv/dev.stamp tests/page/package.json
+	@mkdir -p .venv/node && cp tests/page/package.json .venv/node/
 	PATH="$(CURDIR)/$(BIN):$$PATH" $(BIN)/npm install --prefix .venv/node --no-package-lock --no-audit --no-fund --loglevel=error
 	@touch $@
 
@@ -63,7 +63,7 @@ lint: .venv/dev.stamp .venv/node.stamp
 	$(BIN)/ruff check --no-cache .
 	$(BIN)/mypy
 	$(BIN)/lint-imports --no-cache
-	$(BIN)/node .venv/node/node_modules/typescript/bin/tsc -p tests/web/tsconfig.json
+	$(BIN)/node .venv/node/node_modules/typescript/bin/tsc -p tests/page/tsconfig.json
 
 check: lint
 	$(BIN)/pytest -n 2 --quick
@@ -99,18 +99,18 @@ docs: .venv/docs.stamp site
 	cp -r build/site build/docs/try
 	@echo "open build/docs/index.html"
 
-site: .venv/dev.stamp .venv/node.stamp
+site: .venv/base.stamp
 	rm -rf build/site
 	$(BIN)/python -m codegen.site build/site $(ADDRESS)
 	@echo "open build/site/index.html"
 
 firefox: .venv/node.stamp
-	$(BIN)/python -m web.firefox
+	$(BIN)/python -m page.firefox
 
 notebooks: .venv/dev.stamp
 	$(BIN)/python -m documents.notebooks
 
-generate: .venv/dev.stamp
+generate: .venv/dev.stamp .venv/node.stamp
 	$(BIN)/python -m codegen
 
 pins: .venv/dev.stamp

@@ -44,7 +44,7 @@ SLOW = {
     "plot": "picture",
     "": "make types",
     "certificate": "certificate certificate_in_wind",
-    "web": "api drawing failure fields history kernel layout limits load missions page places schema serve tiles touch",
+    "page": "drawing failure fields history kernel layout missions page places serve tiles touch",
 }
 
 # Tests that share a library which a helper of theirs compiles once in each process.

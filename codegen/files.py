@@ -15,12 +15,12 @@ from loiter.guidance.vehicle import fly_as_declared
 from loiter.kernel import adjoint, entry, motion, rounding, words
 from loiter.kernel.still_air import extremals, switching_curves, synthesis, value_gradient
 from loiter.kernel.wind import held, hold, paths, slots, way_out, wind_search
+from loiter.page.answers import fences, legs, plans, refusals  # noqa: F401
+from loiter.page.answers import files as answer_files  # noqa: F401
 from loiter.version import __version__
-from loiter.web import problems  # noqa: F401
-from loiter.web.answers import exports, fences, legs, plans  # noqa: F401
 
 FOLDER = ROOT / "src" / "loiter" / "native"
-PAGE = ROOT / "src" / "loiter" / "web" / "static" / "kernel"
+PAGE = ROOT / "src" / "loiter" / "page" / "source" / "kernel"
 
 SINGLE = (
     motion.reduce,
@@ -127,25 +127,25 @@ PAGE_ARITHMETIC = PORTABLE._replace(functions=PORTABLE.functions | {"exp": "Math
 
 # What the page needs above the kernel, and what it has elsewhere than in Python.
 ABOVE_KERNEL = (
-    ("loiter.web.answers.plans", "plan"),
-    ("loiter.web.answers.plans", "certificate"),
-    ("loiter.web.answers.plans", "first_maneuver"),
-    ("loiter.web.answers.tracks", "lap"),
-    ("loiter.web.answers.legs", "leg_plan"),
-    ("loiter.web.answers.legs", "leg_fence_check"),
-    ("loiter.web.answers.legs", "leg_file"),
-    ("loiter.web.answers.fences", "fence_check"),
-    ("loiter.web.answers.fences", "clear_plan"),
-    ("loiter.web.answers.fences", "clear_maneuver"),
+    ("loiter.page.answers.plans", "plan"),
+    ("loiter.page.answers.plans", "certificate"),
+    ("loiter.page.answers.plans", "first_maneuver"),
+    ("loiter.page.answers.tracks", "lap"),
+    ("loiter.page.answers.legs", "leg_plan"),
+    ("loiter.page.answers.legs", "leg_fence_check"),
+    ("loiter.page.answers.legs", "leg_file"),
+    ("loiter.page.answers.fences", "fence_check"),
+    ("loiter.page.answers.fences", "clear_plan"),
+    ("loiter.page.answers.fences", "clear_maneuver"),
     ("loiter.fences.model", "CircleZone"),
     ("loiter.fences.model", "PolygonZone"),
     ("loiter.fences.fence", "Fence"),
-    ("loiter.web.answers.exports", "_check_points"),
+    ("loiter.page.answers.files", "check_points"),
     ("loiter.io.files", "FILE_FORMATS"),
     ("loiter.io.files", "SaveArguments"),
     ("loiter.io.missions.altitudes", "AltitudeDatum"),
     ("loiter.io.missions.items", "AUTOPILOTS"),
-    ("loiter.web.problems", "JSON_FIELDS"),
+    ("loiter.page.answers.refusals", "SCENE_FIELDS"),
     ("loiter.planning.model", "Pose"),
     ("loiter.planning.model", "Orbit"),
     ("loiter.planning.model", "Aircraft"),

@@ -1,7 +1,7 @@
 """JavaScript from the library's Python: what is between the kernel and the page, translated without types.
 
 The kernel is translated with types (`javascript`). The code above it has classes, text, dictionaries and generators,
-and takes little time, so here operators and methods become calls of `static/kernel/python.js`, which treats numbers,
+and takes little time, so here operators and methods become calls of `source/kernel/python.js`, which treats numbers,
 complex numbers, arrays and text as Python does. Functions of the kernel stay those of `kernel.js`. All that the globals
 `roots` need is translated, but for what JavaScript has elsewhere.
 
@@ -36,8 +36,28 @@ OPERATORS: dict[type, str] = {
     ast.Eq: "eq", ast.NotEq: "ne", ast.Lt: "lt", ast.LtE: "le", ast.Gt: "gt", ast.GtE: "ge", ast.In: "has",
 }  # fmt: skip
 
+# Functions of `python.js` that the translation itself calls, whatever the names of Python's code.
+WRITTEN = {
+    *OPERATORS.values(),
+    *(
+        "and",
+        "or",
+        "neg",
+        "invert",
+        "truth",
+        "item",
+        "set_item",
+        "sliced",
+        "slice",
+        "with_middle",
+        "set_of",
+        "iter_items",
+    ),
+    *("iter", "list", "str", "repr", "format", "isinstance", "letters", "name_of", "cached", "struct", "enumeration"),
+}
+
 # Names that only JavaScript or `python.js` reserves.
-RESERVED = {
+RESERVED = WRITTEN | {
     "arguments",
     "case",
     "const",

@@ -33,7 +33,7 @@ from evidence.proof.sign_proofs import NotProved
 
 ROOT = Path(__file__).parents[2]
 C = ROOT / "src" / "loiter" / "native" / "still_air_loops.h"
-PAGE = ROOT / "src" / "loiter" / "web" / "static" / "kernel" / "kernel.js"
+PAGE = ROOT / "src" / "loiter" / "page" / "source" / "kernel" / "kernel.js"
 
 # What is proved, in units of 2^-52 of the angle; theorems 4 to 6 assume 2. Boxes are not halved below this width.
 BOUND, NARROWEST = 1.95, 2.0**-10

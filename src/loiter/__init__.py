@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from loiter import io as io
     from loiter import mavlink as mavlink
     from loiter import plot as plot
-    from loiter import web as web
     from loiter.arrays import (
         Gradient,
         Solution,
@@ -57,7 +56,7 @@ _NAMES = {
     }.items()
     for name in names.split()
 }
-_MODULES = {"batch", "errors", "fences", "geo", "guidance", "io", "mavlink", "certificate", "plot", "web"}
+_MODULES = {"batch", "errors", "fences", "geo", "guidance", "io", "mavlink", "certificate", "plot"}
 
 __all__ = [
     "Aircraft",

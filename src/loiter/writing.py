@@ -13,7 +13,7 @@ from loiter.errors import InvalidArgument
 class Format(NamedTuple):
     """A format of output files: the endings of their names, and what the front ends say about it.
 
-    Maps and missions need places on Earth, missions an altitude too. The service offers formats that have a
+    Maps and missions need places on Earth, missions an altitude too. The page offers formats that have a
     `media_type`. `content` makes the content of a file from its ending and its arguments; None for pictures.
     """
 

@@ -13,7 +13,7 @@ import pytest
 import loiter
 from codegen.site import build
 from golden.build_public import PACKAGES
-from web.browsing import AXE, browsing
+from page.browsing import AXE, browsing
 
 ROOT = Path(__file__).parents[2]
 SIZES = {"phone": (390, 844), "desk": (1440, 900)}

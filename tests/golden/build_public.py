@@ -1,4 +1,4 @@
-"""Lists the names that users depend on: functions, parameters, options, JSON keys, columns, statuses, HTTP paths.
+"""Lists the names that users depend on: functions, parameters, options, JSON keys, columns, statuses.
 
 `python tests/golden/build_public.py > tests/golden/public.json` writes the list anew where a name is added on purpose.
 A name that goes, or that changes its meaning, breaks somebody's program.
@@ -37,7 +37,6 @@ DOCUMENTED = {
     "loiter.lab.trials.summary": ["summary"],
     "loiter.planning.model": ["Aircraft", "Orbit", "Pose", "Segment", "Turn", "Wind"],
     "loiter.certificate.entry_certificate": ["Certificate", "certify"],
-    "loiter.web": ["serve"],
 }
 
 
@@ -109,23 +108,6 @@ def tables():
     }
 
 
-def service():
-    import httpx
-
-    from loiter.web.app import create_app
-    from web.serving import run_async
-
-    async def fetched():
-        transport = httpx.ASGITransport(create_app(None))
-        async with httpx.AsyncClient(transport=transport, base_url="http://127.0.0.1") as client:
-            return (await client.get("/openapi.json")).json()
-
-    schema = run_async(fetched())
-    paths = sorted(f"{kind.upper()} {path}" for path, kinds in schema["paths"].items() for kind in kinds)
-    fields = {name for part in schema["components"]["schemas"].values() for name in part.get("properties", {})}
-    return {"paths": paths, "fields": sorted(fields)}
-
-
 def public():
     """The names of each kind, in a line for each place where they are."""
     found = {
@@ -134,7 +116,6 @@ def public():
         "options": options(),
         "documents": documents(),
         "tables": tables(),
-        "service": service(),
     }
     return {kind: {place: ", ".join(names) for place, names in places.items()} for kind, places in found.items()}
 

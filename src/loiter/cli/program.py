@@ -79,16 +79,6 @@ A file is written whole or not at all. Until then finished parts are kept in OUT
         statuses=("  130  interrupted; finished parts of a batch job are kept",),
     ),
     Command(
-        "serve",
-        "loiter.cli.commands.serve:serve",
-        PROGRAM,
-        120,
-        help="""Serve, over HTTP, plans for programs and a page that shows the plan while you drag the aircraft.""",
-        examples=r"""
-  loiter serve
-  loiter serve --port 8080 --cors http://localhost:8000""",
-    ),
-    Command(
         "upload",
         "loiter.cli.commands.mavlink:upload",
         FLIGHTS,

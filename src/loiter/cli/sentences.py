@@ -20,8 +20,8 @@ from loiter.planning.model import TURN_LIMITS
 # The arguments of the library that have an option of their name, without its unit: `chord_error_m` has --chord-error.
 _NAMED = """
 accept_fly_away airframe airspeed_m_s altitude_m altitude_reference arrive_s autopilot bearing_deg cases cells
-chord_error_m climb_rate_m_s cors declination_deg descent_rate_m_s exit_to fence gust
-hold_s home_altitude_m host indicated_airspeed_m_s keep layer_height_m lead_s log margin_m orbit orbit_from orbit_lla
+chord_error_m climb_rate_m_s declination_deg descent_rate_m_s exit_to fence gust
+hold_s home_altitude_m indicated_airspeed_m_s keep layer_height_m lead_s log margin_m orbit orbit_from orbit_lla
 orbit_velocity_m_s out plot port pose pose_lla radius reach rejects replay reports reserve runs save
 scheduler seed send separation_m show sim slot slot_at_s slot_band spacing_m states system temperature_c
 timeout_s to_altitude_m tolerance_m true_radius turn turns wind workers yes

@@ -223,7 +223,7 @@ def _kept_home(site: Site, planned: tuple[float, float, float]) -> tuple[float, 
     return latitude_deg, longitude_deg, planned[2] if site.home_altitude_m is None else site.home_altitude_m
 
 
-# All formats that `save` writes. The command line, the service and the page know them from here.
+# All formats that `save` writes. The command line and the page know them from here.
 FILE_FORMATS = (
     Format((".geojson",), "map", "application/geo+json", "GeoJSON", "for maps", partial(_map, geojson, False)),
     Format(

@@ -1,0 +1,1 @@
+"""What the page computes of a scene: Python that is translated to JavaScript."""
