@@ -25,9 +25,6 @@ export const shift_left = (a, bits) => a * power_of_two(bits);
 export const shift_right = (a, bits) => Math.floor(a / power_of_two(bits));
 
 /** @type {(a: number, b: number) => number} */
-export const fmod = (a, b) => a % b;
-
-/** @type {(a: number, b: number) => number} */
 export function real_modulo(a, b) {
     const rest = a % b;
     if (rest === 0) {

@@ -29,7 +29,7 @@ from loiter.compiled import branchless
 
 # The functions of `math` that JavaScript computes exactly. The others are not the same in every browser, so those of
 # `compiled/branchless.py` stand in for them; the cube root decides only which maneuvers count as one.
-EXACT = {name: f"Math.{name}" for name in ("sqrt", "floor", "ceil", "cbrt")} | {"fabs": "Math.abs", "fmod": "fmod"}
+EXACT = {name: f"Math.{name}" for name in ("sqrt", "floor", "ceil", "cbrt")} | {"fabs": "Math.abs"}
 PORTABLE = DOUBLE._replace(
     functions=EXACT,
     replaced={name: getattr(branchless, name) for name in ("atan2", "sin", "cos", "tan", "acos", "atan")},

@@ -85,7 +85,7 @@ export const no_length = () => 0;
 /** `loiter.kernel.words.encode`, whose controls may be fewer than three. */
 export const encode = (u1, u2 = ABSENT, u3 = ABSENT) => encoded(u1, u2, u3);
 
-/** `loiter.verify.trajectory.word_of`. */
+/** `loiter.certificate.trajectory.word_of`. */
 export const word_of = (maneuver) => Word[maneuver.word || "EMPTY"];
 
 /** The nodes and weights of Gauss's quadrature, `numpy.polynomial.legendre.leggauss(8)`. */
