@@ -363,7 +363,7 @@ def test_vehicles_that_would_come_too_close_are_not_commanded(tmp_path, capsys, 
     table = table_of(tmp_path, "a,udpout:127.0.0.1:1", "b,udpout:127.0.0.1:2", header="name,connect")
     assert main(f"guide --fleet {table} {GUIDE} --turn cw --yes --separation 60".split()) == 2
     err = capsys.readouterr().err
-    assert err.startswith("loiter: --separation is 60, which no plan that was tried keeps: a and b would be 20 m apart")
+    assert err.startswith("loiter: --separation is 60, which no plan that was tried keeps: a and b would be 19.9 m")
     assert err.endswith("; no vehicle was commanded\n")
 
 

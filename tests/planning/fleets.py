@@ -6,6 +6,9 @@ from itertools import permutations
 import numpy as np
 
 from loiter import Aircraft, Orbit, Pose, Slot, Turn, Wind, fleet, hold, plan
+from loiter.planning.flight import samples_at
+from loiter.planning.problem import problem_of
+from loiter.planning.slot import slot_pose
 
 
 def random_fleet(random, n, windy=False):
@@ -22,6 +25,20 @@ def period_s(orbit, uav, wind):
     held = hold(orbit, uav, wind, turn="cw")
     azimuths = np.arange(0.25, 360.0, 0.5)
     return sum(2.0 * np.pi * orbit.radius_m / 720 / held.at(azimuth_deg=float(a)).ground_speed_m_s for a in azimuths)
+
+
+def flown_places(planned, times_s):
+    """The places of the aircraft of a plan (rows), east + 1j north: of its entries, then of its slots one by one."""
+    places = []
+    for entry, slot in zip(planned.entries, planned.slots, strict=True):
+        problem = problem_of(entry).with_turn(planned.turn)
+        before = samples_at(
+            times_s[times_s <= entry.duration_s], entry.start, entry.segments, entry.aircraft, entry.wind
+        )
+        poses = [slot_pose(slot, problem, float(t)) for t in times_s[times_s > entry.duration_s]]
+        held = [complex(pose.east_m, pose.north_m) for pose in poses]
+        places.append([*(before.east_m + 1j * before.north_m), *held])
+    return np.array(places)
 
 
 def least_s(poses, orbit, uav, wind, phases):

@@ -5,15 +5,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from importlib import import_module
-from math import ceil, inf, pi, tau
+from math import ceil, floor, inf, tau
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from loiter.compiled import solver
 from loiter.errors import InvalidArgument, MissingPackage, NotConverged, instance, not_negative, share
+from loiter.kernel.rebinding import rebound
 from loiter.kernel.statuses import Status
 from loiter.kernel.wind import wind_search
 from loiter.kernel.wind.held import time_held
 from loiter.kernel.wind.hold import hold_pose
+from loiter.planning.flight import along
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Turn, Wind, directions, sign_of
 from loiter.planning.problem import Problem, maneuver, problem_of
@@ -23,6 +25,8 @@ if TYPE_CHECKING:
     from numpy import float64
     from numpy.typing import NDArray
 
+    from loiter.planning.separation import Track
+
 # The most aircraft of a fleet.
 MOST_AIRCRAFT = 100
 
@@ -31,9 +35,6 @@ PLACES, PLACES_EACH = 720, 4
 
 # The best common phases that are refined, the phases that are tried in each round between two tried before, and rounds.
 REFINED, FINER, ROUNDS = 4, 10, 4
-
-# Distances between aircraft are sampled this often while the fastest of them flies a turn radius.
-SAMPLES_PER_RADIUS = 10
 
 # The candidates whose separation is computed, the best first.
 MOST_SEPARATED = 40
@@ -57,9 +58,9 @@ class Approach(NamedTuple):
 class FleetPlan:
     """A fleet as planned: the entry and the slot of each aircraft, in the order of the poses.
 
-    `approaches` says of each where it comes closest to another, from the start until all are in their slots and one
-    turn of the circle later; it is empty for a single aircraft. `layers` counts the altitude layer of each aircraft
-    from 0: all 0 where the separation is kept.
+    `approaches` says of each where it comes closest to another, from the start on, on the circle too: the distances are
+    lower than the least ones by up to 1e-6 turn radii, and never more; it is empty for a single aircraft. `layers`
+    counts the altitude layer of each aircraft from 0: all 0 where the separation is kept.
     """
 
     entries: tuple[Maneuver, ...]
@@ -143,10 +144,14 @@ def fleet(
     instance("orbit", orbit, Orbit)
     separation_m, reserve = not_negative("separation_m", separation_m, "metres"), share("reserve", reserve)
     problems = [Problem(pose, orbit, aircraft, CALM if wind is None else wind) for pose in _checked(poses)]
-    found = sorted(each for turn in directions(orbit.turn) for each in candidates_of(Ring(problems, turn), reserve))
+    rings = {turn: Ring(problems, turn) for turn in directions(orbit.turn)}
+    found = sorted(each for ring in rings.values() for each in candidates_of(ring, reserve))
     best = None
     for candidate in found[: MOST_SEPARATED if separation_m > 0.0 else 1]:
-        plan = _planned(Ring(problems, candidate.turn), candidate, separation_m)
+        flights = flights_of(rings[candidate.turn], candidate)
+        if best is not None and come_closer(flights, separation_m):
+            continue
+        plan = _planned(flights, separation_m)
         best = plan if best is None else best
         if max(plan.layers) == 0:
             return plan
@@ -305,17 +310,55 @@ def linear_sum_assignment() -> Any:
     return solvers.linear_sum_assignment
 
 
-def _planned(ring: Ring, candidate: Candidate, separation_m: float) -> FleetPlan:
-    """The plan of a candidate."""
-    slots = [ring.slot(candidate.shift + ring.spacing_s * j) for j in candidate.order]
-    entries = [ring.entry(i, slot) for i, slot in enumerate(slots)]
+class Flights(NamedTuple):
+    """The flights of a fleet: the entries, the slots, the place of each aircraft as a function of times, seconds.
+
+    `until_s` has the time of each aircraft after which its distances from others in their slots repeat.
+    """
+
+    entries: tuple[Maneuver, ...]
+    slots: tuple[Slot, ...]
+    tracks: tuple[Track, ...]
+    until_s: NDArray[float64]
+
+
+def flights_of(ring: Ring, candidate: Candidate) -> Flights:
+    """The flights of a candidate."""
+    import numpy as np
+
+    slots = tuple(ring.slot(candidate.shift + ring.spacing_s * j) for j in candidate.order)
+    entries = tuple(ring.entry(i, slot) for i, slot in enumerate(slots))
+    # In still air the aircraft in their slots stay at equal distances.
+    still = ring.given[0].wx == ring.given[0].wy == 0.0
+    until_s = np.array([entry.duration_s for entry in entries]) + (0.0 if still else ring.period_s)
+    return Flights(entries, slots, tracks_of(entries, slots, ring), until_s)
+
+
+def come_closer(flights: Flights, separation_m: float) -> bool:
+    """Whether samples suffice to show that two aircraft come closer than `separation_m`."""
+    from loiter.planning.separation import sampled_distances
+
+    least, _ = sampled_distances(flights.tracks, flights.until_s, flights.entries[0].aircraft)
+    return bool(least.min() < separation_m)
+
+
+def _planned(flights: Flights, separation_m: float) -> FleetPlan:
+    """The plan of flights."""
+    from loiter.planning.separation import least_distances
+
+    entries, slots, tracks, until_s = flights
     if len(entries) == 1:
-        return FleetPlan(tuple(entries), tuple(slots), (0,), ())
-    least, when_s = closest_approaches(entries, slots, ring)
+        return FleetPlan(entries, slots, (0,), ())
+    least, when_s = least_distances(tracks, until_s, entries[0].aircraft, separation_m)
     approaches = [
         Approach(j, float(least[i, j]), float(when_s[i, j])) for i, j in enumerate(least.argmin(axis=1).tolist())
     ]
-    return FleetPlan(tuple(entries), tuple(slots), layers_of(least < separation_m), tuple(approaches))
+    return FleetPlan(entries, slots, layers_of(least < separation_m), tuple(approaches))
+
+
+def rounded_down(value: float, decimals: int) -> str:
+    """A distance with so many decimals, never more than it is: "49.9" for 49.96."""
+    return f"{floor(value * 10**decimals) / 10**decimals:.{decimals}f}"
 
 
 def layers_of(close: NDArray[Any]) -> tuple[int, ...]:
@@ -327,23 +370,6 @@ def layers_of(close: NDArray[Any]) -> tuple[int, ...]:
     return tuple(layers)
 
 
-def closest_approaches(
-    entries: Sequence[Maneuver], slots: Sequence[Slot], ring: Ring
-) -> tuple[NDArray[float64], NDArray[float64]]:
-    """The least distances of all pairs, metres, from sampled times, `inf` to itself, and when, seconds."""
-    import numpy as np
-
-    last_s = max(entry.duration_s for entry in entries) + ring.period_s
-    times_s = np.linspace(0.0, last_s, ceil(last_s / ring.unit_s * SAMPLES_PER_RADIUS) + 1)
-    places = _tracks(entries, slots, ring, times_s)
-    least, when = np.full((len(places), len(places)), np.inf), np.zeros((len(places), len(places)))
-    for i, place in enumerate(places):
-        distances = np.abs(places - place)
-        least[i], when[i] = distances.min(axis=1), times_s[distances.argmin(axis=1)]
-        least[i, i] = np.inf
-    return least, when
-
-
 def fleet_period_s(plan: FleetPlan) -> float:
     """The time of one turn of the circle, seconds."""
     return _ring_of(plan).period_s
@@ -351,7 +377,9 @@ def fleet_period_s(plan: FleetPlan) -> float:
 
 def fleet_tracks(plan: FleetPlan, times_s: NDArray[float64]) -> Any:
     """The places of all aircraft (rows) at times, seconds, in the hold too: east + 1j north, metres."""
-    return _tracks(plan.entries, plan.slots, _ring_of(plan), times_s)
+    import numpy as np
+
+    return np.array([track(times_s) for track in tracks_of(plan.entries, plan.slots, _ring_of(plan))])
 
 
 def slot_tracks(plan: FleetPlan, times_s: NDArray[float64]) -> Any:
@@ -366,36 +394,57 @@ def _ring_of(plan: FleetPlan) -> Ring:
     return Ring([problem_of(entry) for entry in plan.entries], plan.turn)
 
 
-def _tracks(entries: Sequence[Maneuver], slots: Sequence[Slot], ring: Ring, times_s: NDArray[float64]) -> Any:
-    """The places of all aircraft (rows) at times: on their entries, then in their slots."""
+def tracks_of(entries: Sequence[Maneuver], slots: Sequence[Slot], ring: Ring) -> tuple[Track, ...]:
+    """The place of each aircraft as a function of times, seconds: on its entry, then in its slot."""
+    held = held_track(ring)
+    return tuple(_track(entry, slot, held) for entry, slot in zip(entries, slots, strict=True))
+
+
+def _track(entry: Maneuver, slot: Slot, held: Any) -> Track:
     import numpy as np
 
-    held, tracks = held_track(ring), []
-    for entry, slot in zip(entries, slots, strict=True):
-        places = held(times_s, slot)
-        if entry.segments:
-            before = entry.sample(ring.unit_s / SAMPLES_PER_RADIUS)
-            east, north = (np.interp(times_s, before.time_s, each) for each in (before.east_m, before.north_m))
-            places = np.where(times_s < entry.duration_s, east + 1j * north, places)
-        tracks.append(places)
-    return np.array(tracks)
+    V = entry.aircraft.airspeed_m_s
+    starts = [segment.start_s for segment in entry.segments[1:]]
+
+    def at(times_s: NDArray[float64]) -> Any:
+        places = np.empty(times_s.shape, complex)
+        flown = np.searchsorted([*starts, entry.duration_s], times_s, side="right") if entry.segments else 0
+        holds = flown == len(entry.segments)
+        places[holds] = held(times_s[holds], slot)
+        for k, segment in enumerate(entry.segments):
+            own = flown == k
+            east, north, _ = along(segment, (times_s[own] - segment.start_s) * V, entry.aircraft, entry.wind)
+            places[own] = east + 1j * north
+        return places
+
+    return at
 
 
 def held_track(ring: Ring) -> Any:
-    """A function of times and a slot: the places of the slot, complex, metres east and north."""
+    """A function of times and a slot: the places of the slot, complex, metres east and north.
+
+    The angle flown is interpolated between `HOLD_POINTS`, where its rate is the ground speed over the radius: by cubic
+    polynomials, whose error is of the fourth order, 1e-12 of the radius in a light wind.
+    """
     import numpy as np
 
     problem, given = ring.problems[0], ring.given[0]
-    widths = np.linspace(0.0, 2.0 * pi, HOLD_POINTS + 1)
-    held_s = np.array([time_held(ring.north + w, w, given.R, given.wx, given.wy) for w in widths]) * ring.unit_s
-    side, r = sign_of(ring.turn), problem.aircraft.turn_radius_m
-    points = [hold_pose(ring.north + w, side, given.R, given.wx, given.wy) for w in widths]
-    places = r * np.array([complex(x, y) for x, y, *_ in points])
+    side, R, wind, r = sign_of(ring.turn), given.R, (given.wx, given.wy), problem.aircraft.turn_radius_m
+    widths = np.linspace(0.0, tau, HOLD_POINTS + 1)
+    held_s = np.array([time_held(ring.north + w, w, R, *wind) for w in widths]) * ring.unit_s
+    rates = np.array([hold_pose(ring.north + w, side, R, *wind)[4] for w in widths]) / (R * ring.unit_s)
+    pose = rebound(hold_pose, {"sin": np.sin, "cos": np.cos, "sqrt": np.sqrt})
 
     def at(times_s: NDArray[float64], slot: Slot) -> Any:
         since = (times_s - slot.at_s) % ring.period_s
-        place = np.interp(since, held_s, places.real) + 1j * np.interp(since, held_s, places.imag)
+        k = np.clip(np.searchsorted(held_s, since, side="right") - 1, 0, HOLD_POINTS - 1)
+        step_s, width = held_s[k + 1] - held_s[k], widths[1]
+        t = (since - held_s[k]) / step_s
+        # Hermite's form of the angle beyond the straight line from point to point.
+        before, after = rates[k] * step_s - width, rates[k + 1] * step_s - width
+        angle = widths[k] + width * t + t * (1.0 - t) * (before * (1.0 - t) - after * t)
+        x, y, *_ = pose(ring.north + angle, side, R, *wind)
         east_m, north_m = problem.orbit.centre_after(times_s)
-        return place + east_m + 1j * north_m
+        return r * (x + 1j * y) + east_m + 1j * north_m
 
     return at

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from loiter.geo import LocalFrame
-from loiter.planning.fleet import FleetPlan, slot_tracks
+from loiter.planning.fleet import FleetPlan, rounded_down, slot_tracks
 from loiter.plot.picture import (
     FAINT,
     MARK,
@@ -65,6 +65,6 @@ def _scene(plan: FleetPlan, frame: LocalFrame | None) -> tuple[Figure, Axes]:
 
 
 def _title(plan: FleetPlan) -> str:
-    apart = f", at least {plan.separation_m:.4g} m apart" if plan.approaches else ""
+    apart = f", at least {rounded_down(plan.separation_m, 1)} m apart" if plan.approaches else ""
     first = f"{len(plan.entries)} aircraft, {plan.turn.described}{apart}"
     return f"{first}\nthe last is in its slot in {plan.duration_s:.4g} s"

@@ -34,7 +34,7 @@ from loiter.errors import InvalidArgument, positive
 from loiter.io.files import FILE_FORMATS, SaveArguments, check_format, fleet_contents, is_mission
 from loiter.io.missions.items import AUTOPILOTS, AutopilotName
 from loiter.planning.compass import heading_of
-from loiter.planning.fleet import FleetPlan, slot_tracks
+from loiter.planning.fleet import FleetPlan, rounded_down, slot_tracks
 from loiter.planning.fleet import fleet as plan_fleet
 from loiter.planning.maneuver import decimals_of
 from loiter.planning.model import Pose
@@ -190,7 +190,7 @@ class ShownFleet(NamedTuple):
         elif plan.closest is not None:
             i, j, when_s = plan.closest
             who = f"{self.names[i]} and {self.names[j]}"
-            lines.append(f"Least distance: {plan.separation_m:.1f} m, between {who} at {when_s:.1f} s.")
+            lines.append(f"Least distance: {rounded_down(plan.separation_m, 1)} m, between {who} at {when_s:.1f} s.")
         return lines
 
     def _table(self) -> Table:
@@ -211,7 +211,7 @@ class ShownFleet(NamedTuple):
             cells += [entry.turn.described, entry.word]
             if approached:
                 other, distance_m, time_s = plan.approaches[i]
-                cells += [f"{distance_m:.1f} m", self.names[other], f"{time_s:.1f} s"]
+                cells += [f"{rounded_down(distance_m, 1)} m", self.names[other], f"{time_s:.1f} s"]
             rows.add_row(*cells, f"{plan.layers[i]}")
         return rows
 

@@ -28,7 +28,7 @@ from loiter.mavlink.guiding.guide import Target, checked_request, guide_request
 from loiter.mavlink.guiding.preparation import Assignment, FlightSetup, GuideRequest
 from loiter.mavlink.guiding.report import GuideReport, Stage
 from loiter.planning.compass import wrapped
-from loiter.planning.fleet import FleetPlan, fleet
+from loiter.planning.fleet import FleetPlan, fleet, rounded_down
 from loiter.planning.model import CALM, Aircraft, Orbit, Pose, Wind
 
 # Slots are those that aircraft which are late by this share of their time still reach (docs/slots.md, section 7).
@@ -242,7 +242,7 @@ class GuidedFleet:
         if max(plan.layers) > 0 and plan.closest is not None:
             i, j, when_s = plan.closest
             names = f"{self.members[i].vehicle.name} and {self.members[j].vehicle.name}"
-            near = f"{names} would be {plan.separation_m:.0f} m apart after {when_s:.0f} s"
+            near = f"{names} would be {rounded_down(plan.separation_m, 1)} m apart after {when_s:.0f} s"
             wanted = f"is {self.request.separation_m:g}, which no plan that was tried keeps"
             raise InvalidArgument("separation_m", f"{wanted}: {near}; no vehicle was commanded")
         return plan, at_s
@@ -281,10 +281,12 @@ class GuidedFleet:
             self.least_m = min(self.least_m, distance_m)
             if distance_m < wanted_m and pair not in self._near:
                 self._near.add(pair)
-                notices.append(f"{one} and {other} are {distance_m:.0f} m apart, less than {wanted_m:g} m.")
+                notices.append(
+                    f"{one} and {other} are {rounded_down(distance_m, 0)} m apart, less than {wanted_m:g} m."
+                )
             elif distance_m > wanted_m and pair in self._near:
                 self._near.remove(pair)
-                notices.append(f"{one} and {other} are {distance_m:.0f} m apart again.")
+                notices.append(f"{one} and {other} are {rounded_down(distance_m, 0)} m apart again.")
         return notices
 
     def stop(self) -> None:
