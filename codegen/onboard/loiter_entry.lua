@@ -299,7 +299,7 @@ local function estimates_of(now, airspeeds)
     local rate_deg_s = param:get("RLL2SRV_RMAX") or 0.0
     return {
         roll = {
-            time_s = ROLL_TIME_S, rate_deg_s = rate_deg_s > 0.0 and rate_deg_s or ROLL_RATE_DEG_S, lag_s = 0.0,
+            time_s = ROLL_TIME_S, rate_deg_s = rate_deg_s >= 0.1 and rate_deg_s or ROLL_RATE_DEG_S, lag_s = 0.0,
             slew_deg_s = math.huge,
         },
         delay_s = delay_s, turn_ratio = turns.slow.ratio, quick_turn_ratio = turns.quick.ratio,

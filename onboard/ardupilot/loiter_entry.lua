@@ -2,7 +2,7 @@
 --
 -- Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
 --
--- SHA-256 of the source: 72289c7b5153a52b696c287df11e25f724c7eaca3be81516cace520e6cbe1aa9
+-- SHA-256 of the source: 48f94bc4b13881aacd8bd918b9b3f99c04018ed76537a027e64c13f9b6c0c12a
 --
 -- When a switch asks for it, this script flies a plane onto the holding circle around its present target in least
 -- time, and then leaves the circle to ArduPlane: loiter_entry.md. It works by GUIDED_CHANGE_HEADING in GUIDED: the target
@@ -3551,7 +3551,7 @@ local function estimates_of(now, airspeeds)
     local rate_deg_s = param:get("RLL2SRV_RMAX") or 0.0
     return {
         roll = {
-            time_s = ROLL_TIME_S, rate_deg_s = rate_deg_s > 0.0 and rate_deg_s or ROLL_RATE_DEG_S, lag_s = 0.0,
+            time_s = ROLL_TIME_S, rate_deg_s = rate_deg_s >= 0.1 and rate_deg_s or ROLL_RATE_DEG_S, lag_s = 0.0,
             slew_deg_s = math.huge,
         },
         delay_s = delay_s, turn_ratio = turns.slow.ratio, quick_turn_ratio = turns.quick.ratio,

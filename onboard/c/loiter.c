@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: cfcd3d6d94be16a8dee050374211c54a91865eb6697917dc68af45356610921c
+ * SHA-256 of the source: cd04355eb675fcf6d943f93c079ae2b5b04f8370e7b0240a255e57948be0c670
  */
 #include "loiter.h"
 
@@ -5667,15 +5667,18 @@ loiter_law_config loiter_law_defaults(loiter_real airspeed_m_s, loiter_real bank
 
 static bool is_within(real value, real least, real most) { return value >= least && value <= most; }
 
-/* The largest times, seconds, gains and speeds of any aircraft, and the least rate of a roll, degrees per second; with
- * others numbers might overflow. */
+/* The largest times, seconds, gains and speeds of any aircraft, the largest bank, degrees, whose tangent single precision
+ * still resolves, and the least rate of a roll, degrees per second, and time constant but 0, seconds; with others numbers
+ * might overflow, or be divided by zero. */
 #define MOST REAL(1000.0)
+#define LARGEST_BANK REAL(89.0)
 #define LEAST_ROLL_RATE REAL(0.1)
+#define LEAST_ROLL_TIME REAL(1e-06)
 
 /* Whether a law can be made for a configuration. */
 static int status_of_config(const loiter_law_config *c) {
     if (!is_within(c->airspeed_m_s, LEAST_AIRSPEED_M_S, MOST) || !(c->bank_limit_deg > REAL(0.0)) ||
-        !(c->bank_limit_deg < REAL(90.0))) {
+        !(c->bank_limit_deg <= LARGEST_BANK)) {
         return LOITER_BAD_AIRCRAFT;
     }
     if (!(c->radius_m > REAL(0.0)) || !(c->radius_m <= LARGEST_VALUE)) {
@@ -5684,7 +5687,8 @@ static int status_of_config(const loiter_law_config *c) {
     if (status_of_side(c->side) != LOITER_OK) {
         return LOITER_BAD_TURN;
     }
-    if (!is_within(c->roll_time_s, REAL(0.0), MOST) || !(c->roll_rate_deg_s >= LEAST_ROLL_RATE) ||
+    const bool is_roll = c->roll_time_s == REAL(0.0) || is_within(c->roll_time_s, LEAST_ROLL_TIME, MOST);
+    if (!is_roll || !(c->roll_rate_deg_s >= LEAST_ROLL_RATE) ||
         !(c->roll_slew_deg_s >= LEAST_ROLL_RATE) ||
         !is_within(c->delay_s, REAL(0.0), MOST) || !is_within(c->reserve, REAL(0.0), MOST) ||
         !is_within(c->smoothing_s, REAL(0.0), MOST) || !(c->gain > REAL(0.0)) || !(c->gain <= MOST) || c->search_steps < 0) {

@@ -6,7 +6,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: cfcd3d6d94be16a8dee050374211c54a91865eb6697917dc68af45356610921c
+ * SHA-256 of the source: cd04355eb675fcf6d943f93c079ae2b5b04f8370e7b0240a255e57948be0c670
  */
 #ifndef LOITER_ONBOARD_H
 #define LOITER_ONBOARD_H

@@ -2,7 +2,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 5ac32c614193fe368b00f8c4828b218fd89b9529137ea2a6c20484a31d1c0e24
+ * SHA-256 of the source: 984cc5a103fb537ac5b8fd9379e1c8c6403d318f9815d0fdb4c267bc14b03b97
  */
 #include "loiter_identification.h"
 

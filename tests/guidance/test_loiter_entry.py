@@ -1,5 +1,6 @@
 """The law that flies the fastest entry: exact with the vehicle of the theory, settling in noise, safe without data."""
 
+import re
 from itertools import pairwise
 from math import cos, hypot, inf, isnan, nan, radians, sin
 
@@ -377,9 +378,10 @@ def test_a_circle_that_cannot_be_held_is_refused():
 
 
 @pytest.mark.parametrize("name", ["delay_s", "reserve", "smoothing_s", "gain"])
-def test_arguments_are_not_negative(name):
-    with pytest.raises(InvalidArgument, match=f"^{name} is -1"):
-        LoiterEntry(ORBIT, UAV, **{name: -1})
+def test_arguments_are_neither_negative_nor_huge(name):
+    for value in (-1, 1001.0, 1e300):
+        with pytest.raises(InvalidArgument, match=f"^{name} is {re.escape(str(value))}"):
+            LoiterEntry(ORBIT, UAV, **{name: value})
 
 
 def test_an_aircraft_given_by_its_turn_rate_that_banks_slowly():

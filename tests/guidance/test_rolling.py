@@ -1,6 +1,6 @@
 """The roll response, compared with small steps of its differential equation."""
 
-from math import cos, inf, log, radians, sqrt, tan
+from math import cos, inf, isfinite, log, radians, sqrt, tan
 
 import pytest
 from hypothesis import assume, given, settings
@@ -9,6 +9,9 @@ from hypothesis import strategies as st
 from loiter.errors import InvalidArgument
 from loiter.guidance.vehicle import (
     INSTANT_ROLL,
+    LARGEST_SETTING,
+    LEAST_ROLL_RATE_DEG_S,
+    LEAST_ROLL_TIME_S,
     Bank,
     BankState,
     Roll,
@@ -179,12 +182,26 @@ def test_a_demand_stays_within_the_limit_and_points_to_the_target(roll, bank, ta
     assert INSTANT_ROLL.demand_deg(bank, target, LIMIT_DEG) == target
 
 
-@pytest.mark.parametrize(("time", "rate"), [(-1.0, 60.0), (inf, 60.0), (0.5, 0.0), (0.5, float("nan"))])
+@pytest.mark.parametrize(
+    ("time", "rate"),
+    [(-1.0, 60.0), (inf, 60.0), (0.5, 0.0), (0.5, float("nan")), (1e-320, 60.0), (1001.0, 60.0), (0.5, 1e-300)],
+)
 def test_an_impossible_response_is_refused(time, rate):
     with pytest.raises(InvalidArgument, match=r"^roll (time_s|rate_deg_s) is "):
         Roll(time, rate)
     with pytest.raises(InvalidArgument, match=r"^roll slew_deg_s is "):
         Roll(0.5, 60.0, 0.0)
+
+
+@pytest.mark.parametrize("time_s", [0.0, LEAST_ROLL_TIME_S, 0.1, LARGEST_SETTING])
+@pytest.mark.parametrize("slew_deg_s", [LEAST_ROLL_RATE_DEG_S, 20.0, 1e300, inf])
+@pytest.mark.parametrize("rate_deg_s", [LEAST_ROLL_RATE_DEG_S, 60.0, 1e300, inf])
+def test_every_response_that_is_accepted_has_finite_delays(time_s, rate_deg_s, slew_deg_s):
+    """A time constant of 5e-324 s was a division by zero, or a delay that is no number."""
+    roll = Roll(time_s, rate_deg_s, slew_deg_s)
+    for bank_deg, target_deg in ((0.0, LIMIT_DEG), (-20.0, 10.0), (0.0, 1e-3), (LIMIT_DEG, -LIMIT_DEG)):
+        found = coasted_deg(roll.values, BankState(Bank(bank_deg, 0.0), target_deg))
+        assert all(map(isfinite, [*roll.onset(bank_deg, target_deg, LIMIT_DEG), found]))
 
 
 @pytest.mark.parametrize("time_s", [1e-300, 1e-18, 1e-9, 1e-4, 0.0299, 0.0301])

@@ -1,7 +1,6 @@
 """The C for autopilots with libFuzzer and sanitizers: `python -m native.fuzz entry 3600`.
 
-What is called is `entry`, `search` or `law`; the number is that of seconds of processor time. `--float` is single
-precision, and `--corpus FOLDER` keeps the inputs that reach new code, and begins with those. Needs clang. An input that
+What is called is one of `CALLED`; the number is that of seconds of processor time. `--float` is single precision, and `--corpus FOLDER` keeps the inputs that reach new code, and begins with those. Needs clang. An input that
 makes a sanitizer or a check complain is left in the present folder, and given again by its name instead of the seconds.
 """
 
@@ -19,7 +18,7 @@ from codegen.onboard import FOLDER
 
 HERE = Path(__file__).parent
 CLANG = shutil.which("clang")
-CALLED = ("entry", "search", "law")
+CALLED = ("entry", "search", "law", "settings")
 
 SANITIZERS = "address,undefined,float-cast-overflow"
 FLAGS = ["-std=c99", "-O1", "-g", "-ffp-contract=off", "-fno-sanitize-recover=all"]

@@ -1,7 +1,7 @@
 /* Makes calls of the C for autopilots from bytes: nothing may trap, each call has a status, a search in parts gives the
  * bits of a whole one, and a bank is within its limit.
  *
- * libFuzzer gives the bytes, where FUZZED is what is called: entry, search or law (`python -m native.fuzz`). Where
+ * libFuzzer gives the bytes, where FUZZED is what is called: entry, search, law or settings (`python -m native.fuzz`). Where
  * AT_RANDOM is defined a generator does; the arguments are what is called, and how many inputs. */
 #include <math.h>
 #include <stdio.h>
@@ -116,6 +116,19 @@ static void search(void) {
     }
 }
 
+/* Times may be nan without data alone. */
+static void check_command(const loiter_command *command, loiter_real limit_deg) {
+    if (!(fabs((double)command->bank_deg) <= (double)limit_deg)) {
+        fail("step: a bank beyond the limit");
+    }
+    if (!isfinite(command->turn_rate_deg_s)) {
+        fail("step: a turn rate that is no number");
+    }
+    if (command->phase != LOITER_NO_DATA && (!(command->time_to_join_s >= 0) || !(command->next_in_s >= 0))) {
+        fail("step: a time that is no number");
+    }
+}
+
 /* A law, with a vehicle that flies as it is commanded but for what the bytes say. */
 static void law(void) {
     static loiter_law flown;
@@ -173,9 +186,7 @@ static void law(void) {
         if (status != LOITER_OK) {
             continue;
         }
-        if (!(fabs((double)command.bank_deg) <= (double)config.bank_limit_deg)) {
-            fail("step: a bank beyond the limit");
-        }
+        check_command(&command, config.bank_limit_deg);
         bank_deg = command.bank_deg;
         heading_deg += 31 * (loiter_real)tan(bank_deg * 0.01745) * flown_s;
         heading_deg -= 360 * (loiter_real)floor(heading_deg / 360);
@@ -185,6 +196,62 @@ static void law(void) {
             east = north = heading_deg = 0;
         }
         time_us += (uint32_t)(flown_s * 1000000);
+    }
+}
+
+/* Three settings with extreme values, those of the roll every other time, and a flight of 12 s as commanded. */
+static void settings(void) {
+    static const double extreme[] = {0.0,  5e-324, 1e-320, 1e-310, 1e-300, 1e-160, 1e-45, 1e-40, 1e-37, 1e-20, 1e-12,
+                                     1e-9, 1e-6,   1e-3,   0.1,    1.0,    5.0,    60.0,  89.0,  89.9,  89.9999, 90.0,
+                                     1e3,  1e4,    1e6,    1e9,    1e18,   3e38,   1e100, 1e300, INFINITY, NAN, -1.0};
+    static loiter_law flown;
+    static loiter_identification known;
+    loiter_law_config config = loiter_law_defaults(18, 35, 90, (int)(byte() % 3) - 1);
+    loiter_real *const configured[] = {&config.roll_time_s,  &config.roll_rate_deg_s, &config.roll_slew_deg_s,
+                                       &config.radius_m,     &config.airspeed_m_s,    &config.bank_limit_deg,
+                                       &config.delay_s,      &config.wind_east_m_s,   &config.wind_north_m_s,
+                                       &config.reserve,      &config.smoothing_s,     &config.gain};
+    const unsigned is_roll = byte() % 2;
+    config.search_steps = 12;
+    int begun = LOITER_BAD_RESPONSE;
+    for (unsigned k = 0; k < 3; k++) {
+        loiter_real *const one = configured[is_roll ? k : byte() % 12];
+        const loiter_real before = *one;
+        const double value = extreme[byte() % (sizeof extreme / sizeof *extreme)];
+        *one = fabs(value) > 3e38 && isfinite(value) && sizeof before == 4 ? (loiter_real)3e38 : (loiter_real)value;
+        begun = loiter_law_begin(&flown, &config);
+        if (begun < 0 || begun > LOITER_BAD_RESPONSE) {
+            fail("settings: no status");
+        }
+        *one = begun == LOITER_OK ? *one : before;
+    }
+    if (loiter_law_begin(&flown, &config) != LOITER_OK) {
+        fail("settings: refused");
+    }
+    const int is_identified = byte() % 2;
+    if (is_identified) {
+        loiter_identification_begin(&known, &flown, byte() % 2);
+    }
+    const double speed = (double)config.airspeed_m_s, rad = 0.017453292519943295, dt_s = 0.08;
+    double east = 400.0 * integer() / 32768, north = 400.0 * integer() / 32768, heading = 180.0 * integer() / 32768, bank = 0;
+    for (uint32_t step = 0; step < 150; step++) {
+        const double velocity_east = speed * sin(heading * rad) + (double)config.wind_east_m_s;
+        const double velocity_north = speed * cos(heading * rad) + (double)config.wind_north_m_s;
+        const loiter_measurement m = {step * 80000u,     (loiter_real)east, (loiter_real)north, (loiter_real)heading,
+                                      (loiter_real)bank, (loiter_real)velocity_east, (loiter_real)velocity_north,
+                                      (loiter_real)speed};
+        loiter_command command;
+        const int status = is_identified ? loiter_law_step_identified(&flown, &known, &m, (loiter_real)dt_s, &command)
+                                         : loiter_law_step(&flown, &m, (loiter_real)dt_s, &command);
+        if (status != LOITER_OK) {
+            fail("settings: no step");
+        }
+        check_command(&command, config.bank_limit_deg);
+        bank = (double)command.bank_deg;
+        heading += (double)command.turn_rate_deg_s * dt_s;
+        heading -= 360 * floor(heading / 360);
+        east += velocity_east * dt_s;
+        north += velocity_north * dt_s;
     }
 }
 
@@ -208,7 +275,11 @@ int main(int count, char **arguments) {
     if (count != 3) {
         fail("what is called, and a number, are needed");
     }
-    void (*const called)(void) = arguments[1][0] == 'e' ? entry : arguments[1][0] == 's' ? search : law;
+    void (*const called)(void) =
+        strcmp(arguments[1], "entry") == 0      ? entry
+        : strcmp(arguments[1], "search") == 0   ? search
+        : strcmp(arguments[1], "settings") == 0 ? settings
+                                                : law;
     for (long left = atol(arguments[2]); left > 0; left--) {
         for (size_t i = 0; i < sizeof bytes; i++) {
             seed ^= seed << 13;

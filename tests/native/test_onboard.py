@@ -141,6 +141,33 @@ def test_the_state_of_the_law_in_single_precision_fits_a_microcontroller(tmp_pat
     subprocess.run([COMPILER, "-DLOITER_FLOAT", f"-I{FOLDER}", "-c", source, "-o", tmp_path / "size.o"], check=True)
 
 
+SETTINGS = """
+#include <math.h>
+#include "loiter.h"
+int main(void) {
+    static loiter_law law;
+    const loiter_real bad[][3] = {{(loiter_real)1e-320, 60, 20}, {(loiter_real)1e-45, 60, 20}, {(loiter_real)1e-7, 60, 20},
+        {1001, 60, 20}, {INFINITY, 60, 20}, {NAN, 60, 20}, {-1, 60, 20}, {1, 0, 20}, {1, NAN, 20}, {1, 60, 0}, {1, 60, NAN}};
+    for (unsigned i = 0; i < sizeof bad / sizeof *bad; i++) {
+        loiter_law_config config = loiter_law_defaults(18, 35, 90, LOITER_EITHER);
+        config.roll_time_s = bad[i][0];
+        config.roll_rate_deg_s = bad[i][1];
+        config.roll_slew_deg_s = bad[i][2];
+        /* In single precision 1e-320 is 0. */
+        if (config.roll_time_s != 0 && loiter_law_begin(&law, &config) != LOITER_BAD_RESPONSE) return 2 + (int)i;
+    }
+    const loiter_law_config upright = loiter_law_defaults(18, (loiter_real)89.9999, 90, LOITER_EITHER);
+    return loiter_law_begin(&law, &upright) == LOITER_BAD_AIRCRAFT ? 0 : 1;
+}
+"""
+
+
+@pytest.mark.parametrize("single", [False, True])
+def test_a_setting_that_cannot_be_flown_has_a_status(single, tmp_path):
+    """A time constant of 1e-45 s, and a bank limit of 89.9999 degrees in single precision, gave banks that are nan."""
+    assert run(SETTINGS, single, tmp_path) == 0
+
+
 STEPS = """
 #include <math.h>
 #include "loiter.h"
@@ -162,12 +189,17 @@ int main(void) {
 @pytest.mark.parametrize("single", [False, True])
 def test_a_step_of_an_impossible_length_is_refused(single, tmp_path):
     """A fuzzer found a bank that is nan after a step of 3e38 s, which overflows in single precision."""
-    (tmp_path / "steps.c").write_text(STEPS, "utf-8")
-    sources = [tmp_path / "steps.c", FOLDER / "loiter.c"]
+    assert run(STEPS, single, tmp_path) == 0
+
+
+def run(program, single, folder):
+    """The exit status of a program with the law."""
+    (folder / "program.c").write_text(program, "utf-8")
+    sources = [folder / "program.c", FOLDER / "loiter.c"]
     macros = ["-DLOITER_FLOAT"] if single else []
-    command = [COMPILER, "-std=c99", *macros, f"-I{FOLDER}", *sources, "-o", tmp_path / "steps", "-lm"]
+    command = [COMPILER, "-std=c99", *macros, f"-I{FOLDER}", *sources, "-o", folder / "program", "-lm"]
     subprocess.run(command, check=True)
-    assert subprocess.run([tmp_path / "steps"], check=False).returncode == 0
+    return subprocess.run([folder / "program"], check=False).returncode
 
 
 @pytest.mark.parametrize("single", [False, True])
@@ -181,7 +213,7 @@ def test_no_number_makes_it_do_what_c_does_not_define(single, tmp_path):
     if "cannot find" in built.stderr:
         pytest.skip("this compiler has no sanitizers")
     assert built.returncode == 0, built.stderr
-    for called, inputs in zip(CALLED, (5000, 500, 500), strict=True):
+    for called, inputs in zip(CALLED, (5000, 500, 500, 700), strict=True):
         done = subprocess.run([program, called, str(inputs)], capture_output=True, text=True, timeout=3600)
         assert (done.returncode, done.stderr) == (0, "")
 

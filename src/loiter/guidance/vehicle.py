@@ -10,6 +10,11 @@ from loiter.errors import InvalidArgument, as_float, not_negative
 from loiter.guidance.protocol import State
 from loiter.planning.model import STANDARD_GRAVITY_M_S2
 
+# The settings that a law can be flown with: a bank that follows at once or with a time constant from the first number,
+# seconds, whose square no precision rounds to 0, to the last, the largest of any time or gain, and a least rate of bank
+# and of its command, degrees per second. With others numbers would overflow, or divide by zero.
+LEAST_ROLL_TIME_S, LEAST_ROLL_RATE_DEG_S, LARGEST_SETTING = 1e-6, 0.1, 1000.0
+
 # A turn through a smaller angle, radians, is flown as a straight line: the difference is below the rounding error.
 SMALLEST_TURN = 2.0**-54
 
@@ -138,13 +143,22 @@ class TurnDelay(NamedTuple):
     moment_s2: float
 
 
+def setting(argument: str, value: object, unit: str) -> float:
+    """A time or a gain of a law as a float; raises `InvalidArgument` unless it is from 0 to `LARGEST_SETTING`."""
+    x = not_negative(argument, value, unit)
+    if x > LARGEST_SETTING:
+        raise InvalidArgument(argument, f"is {value}: it must be at most {LARGEST_SETTING:g} {unit}")
+    return x
+
+
 @dataclass(frozen=True)
 class Roll:
     """The roll response: bank rate = (command - bank)/`time_s`, limited to `rate_deg_s`.
 
     A law changes its command by `slew_deg_s` degrees per second at most: an autopilot that limits the rate of its bank
     setpoint then follows it. A time constant of 0 with infinite rates describes an aircraft that banks instantly.
-    Raises `InvalidArgument` for a time constant that is negative or not finite, and for rates that are not positive.
+    Raises `InvalidArgument` for a time constant other than 0 and those from 1e-6 to 1000 seconds, and for rates below
+    0.1 degrees per second.
     """
 
     time_s: float = 0.5
@@ -152,12 +166,15 @@ class Roll:
     slew_deg_s: float = inf
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "time_s", not_negative("roll time_s", self.time_s, "seconds"))
+        object.__setattr__(self, "time_s", setting("roll time_s", self.time_s, "seconds"))
+        if 0.0 < self.time_s < LEAST_ROLL_TIME_S:
+            raise InvalidArgument(
+                "roll time_s", f"is {self.time_s}: it must be 0 or at least {LEAST_ROLL_TIME_S:g} seconds"
+            )
         for name in ("rate_deg_s", "slew_deg_s"):
-            if not as_float(getattr(self, name)) > 0.0:
-                raise InvalidArgument(
-                    f"roll {name}", f"is {getattr(self, name)}: it must be above 0 degrees per second"
-                )
+            if not as_float(getattr(self, name)) >= LEAST_ROLL_RATE_DEG_S:
+                need = f"it must be at least {LEAST_ROLL_RATE_DEG_S:g} degrees per second"
+                raise InvalidArgument(f"roll {name}", f"is {getattr(self, name)}: {need}")
 
     @property
     def values(self) -> RollValues:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from loiter.errors import InvalidArgument, instance, not_negative, positive
+from loiter.errors import InvalidArgument, instance, positive
 from loiter.guidance.entry import law_step
 from loiter.guidance.entry.law_step import DELAY_S, HOLD, LONGEST_STEP_S, NO_DATA, SMOOTHING_S
 from loiter.guidance.entry.limits import NEGLIGIBLE_WIND, RESERVE, Settings
@@ -12,7 +12,7 @@ from loiter.guidance.estimation.observer import COVERED_S
 from loiter.guidance.estimation.turn_fits import EXPECTED_TURN_RATIO
 from loiter.guidance.estimation.wind_fit import DECLARED_WIND_S
 from loiter.guidance.protocol import PHASES, Command, Phase, State
-from loiter.guidance.vehicle import INSTANT_ROLL, Roll, VehicleEstimates, VehicleModel, fly_as_declared
+from loiter.guidance.vehicle import INSTANT_ROLL, Roll, VehicleEstimates, VehicleModel, fly_as_declared, setting
 from loiter.planning.model import CALM, Aircraft, Orbit, Turn, Wind, check_held, relative_wind, sign_of
 
 # The names of the codes of a step.
@@ -44,7 +44,8 @@ class LoiterEntry:
     phase. A clock that jumps back, or more than an hour ahead, is accepted when its stamps have advanced by a second;
     the position of a moving circle is then taken from the new clock.
 
-    Raises `RadiusTooSmall` and `WindTooStrong` where the circle cannot be held, `InvalidArgument` for numbers below 0.
+    Raises `RadiusTooSmall` and `WindTooStrong` where the circle cannot be held, `InvalidArgument` for numbers below 0
+    or above 1000.
     """
 
     def __init__(
@@ -64,7 +65,7 @@ class LoiterEntry:
         instance("roll", roll, Roll)
         check_held(orbit, aircraft, relative_wind(orbit, aircraft, air), air)
         wind_east_m_s, wind_north_m_s = air.velocity_m_s
-        limit_deg, delay_s = aircraft.bank_deg(aircraft.turn_radius_m), not_negative("delay_s", delay_s, "seconds")
+        limit_deg, delay_s = aircraft.bank_deg(aircraft.turn_radius_m), setting("delay_s", delay_s, "seconds")
         self._settings = Settings(
             east_m=orbit.east_m,
             north_m=orbit.north_m,
@@ -76,9 +77,9 @@ class LoiterEntry:
             wind_north_m_s=wind_north_m_s,
             limit_deg=limit_deg,
             command_limit_deg=limit_deg,
-            gain=positive("gain", gain, "units"),
-            reserve=not_negative("reserve", reserve, "one"),
-            smoothing_s=not_negative("smoothing_s", smoothing_s, "seconds"),
+            gain=setting("gain", positive("gain", gain, "units"), "units"),
+            reserve=setting("reserve", reserve, "one"),
+            smoothing_s=setting("smoothing_s", smoothing_s, "seconds"),
             negligible_wind=NEGLIGIBLE_WIND if identify else 0.0,
             covered_s=max(COVERED_S, delay_s),
             search_steps=0,
