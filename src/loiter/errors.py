@@ -101,16 +101,26 @@ class LinkFailed(LoiterError):
     """
 
 
+# Numbers of any unit, and lengths and speeds above zero, are refused beyond these: of others squares and cubes, and
+# their quotients, overflow or are 0. The first is far below any length, the last far above the universe.
+LEAST_SIZE, LARGEST_SIZE = 1e-50, 1e50
+
+
 def number(argument: str, value: object, unit: str) -> float:
     """`value` as a finite float, in `unit` where it is a quantity of pint."""
     x = as_float(in_unit(value, unit))
-    return x if isfinite(x) else _refuse(argument, value, f"a finite number of {unit}")
+    if not abs(x) <= LARGEST_SIZE:
+        _refuse(argument, value, f"a finite number of {unit}{_range(x)}")
+    return x
 
 
 def positive(argument: str, value: object, unit: str) -> float:
     """`value` as a finite float above zero, in `unit` where it is a quantity of pint."""
     x = as_float(in_unit(value, unit))
-    return x if 0.0 < x < inf else _refuse(argument, value, f"a positive, finite number of {unit}")
+    least, largest = (LEAST_SIZE, LARGEST_SIZE) if unit.startswith("metres") else (0.0, inf)
+    if not (0.0 < x < inf and least <= x <= largest):
+        _refuse(argument, value, f"a positive, finite number of {unit}{_range(x)}")
+    return x
 
 
 def not_negative(argument: str, value: object, unit: str) -> float:
@@ -192,6 +202,13 @@ def as_float(value: object) -> float:
         return float(value)
     except OverflowError:
         return nan
+
+
+def _range(x: float) -> str:
+    """What a finite number that is refused for its size must be; empty for another."""
+    if not isfinite(x) or x == 0.0 or LEAST_SIZE <= abs(x) <= LARGEST_SIZE:
+        return ""
+    return f", from {LEAST_SIZE:g} to {LARGEST_SIZE:g} in size: this is too {'small' if abs(x) < 1.0 else 'large'}"
 
 
 def _refuse(argument: str, value: object, need: str) -> NoReturn:

@@ -1,7 +1,8 @@
 """The C for autopilots with libFuzzer and sanitizers: `python -m native.fuzz entry 3600`.
 
-What is called is one of `CALLED`; the number is that of seconds of processor time. `--float` is single precision, and `--corpus FOLDER` keeps the inputs that reach new code, and begins with those. Needs clang. An input that
-makes a sanitizer or a check complain is left in the present folder, and given again by its name instead of the seconds.
+What is called is one of `CALLED`; the number is that of seconds of processor time. `--float` is single precision, and
+`--corpus FOLDER` keeps the inputs that reach new code, and begins with those. Needs clang. An input that makes a
+sanitizer or a check complain is left in the present folder, and given again by its name instead of the seconds.
 """
 
 import argparse

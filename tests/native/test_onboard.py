@@ -146,8 +146,9 @@ SETTINGS = """
 #include "loiter.h"
 int main(void) {
     static loiter_law law;
-    const loiter_real bad[][3] = {{(loiter_real)1e-320, 60, 20}, {(loiter_real)1e-45, 60, 20}, {(loiter_real)1e-7, 60, 20},
-        {1001, 60, 20}, {INFINITY, 60, 20}, {NAN, 60, 20}, {-1, 60, 20}, {1, 0, 20}, {1, NAN, 20}, {1, 60, 0}, {1, 60, NAN}};
+    const loiter_real bad[][3] = {{(loiter_real)1e-320, 60, 20}, {(loiter_real)1e-45, 60, 20},
+                                  {(loiter_real)1e-7, 60, 20}, {1001, 60, 20}, {INFINITY, 60, 20}, {NAN, 60, 20},
+                                  {-1, 60, 20}, {1, 0, 20}, {1, NAN, 20}, {1, 60, 0}, {1, 60, NAN}};
     for (unsigned i = 0; i < sizeof bad / sizeof *bad; i++) {
         loiter_law_config config = loiter_law_defaults(18, 35, 90, LOITER_EITHER);
         config.roll_time_s = bad[i][0];

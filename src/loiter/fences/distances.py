@@ -114,7 +114,9 @@ def crossing_share(ax: Reals, ay: Reals, bx: Reals, by: Reals, edges: Edges) -> 
     px, py = edges.ax - ax, edges.ay - ay
     cross = dx * ey - dy * ex
     safe = np.where(cross == 0.0, 1.0, cross)
-    along, across = (px * ey - py * ex) / safe, (px * dy - py * dx) / safe
+    # Chords that are almost parallel cross too far away for a number.
+    with np.errstate(over="ignore"):
+        along, across = (px * ey - py * ex) / safe, (px * dy - py * dx) / safe
     crosses = (cross != 0.0) & (along >= 0.0) & (along <= 1.0) & (across >= 0.0) & (across <= 1.0)
     return np.where(crosses, along, -1.0)
 

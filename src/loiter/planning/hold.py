@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from math import pi
 from typing import TYPE_CHECKING, NamedTuple
 
-from loiter.errors import InvalidArgument, positive
+from loiter.errors import InvalidArgument, number, positive
 from loiter.kernel.wind.hold import hold_pose, hold_rate, phase_of
 from loiter.planning.compass import heading_of, heading_vector, wrapped
 from loiter.planning.flight import over_ground
@@ -84,7 +84,7 @@ class Hold:
 
     def at(self, azimuth_deg: float) -> HoldPoint:
         """Heading, ground track, ground speed and bank at an azimuth."""
-        east, north = heading_vector(azimuth_deg)
+        east, north = heading_vector(number("azimuth_deg", azimuth_deg, "degrees"))
         phase = phase_of(east, north, SIDES[self.turn], *relative_wind(self.orbit, self.aircraft, self.wind))
         return self._at(phase)._replace(azimuth_deg=wrapped(azimuth_deg))
 

@@ -17,11 +17,15 @@ import numpy as np
 from numpy import float64
 from numpy.typing import NDArray
 
+from loiter.errors import OutOfRange
 from loiter.planning.model import Aircraft
 
 # A search begins with so many parts while an aircraft flies a turn radius. Bounds of turns are within 1/400 of the
 # radius of the chords then, and each split divides that by SPLIT^2.
 PARTS_PER_RADIUS, SPLIT, MOST_LEVELS = 10, 12, 16
+
+# The longest flights whose distances are searched, turn radii: a hundred aircraft need 1.6 GB of memory then.
+MOST_RADII = 1e5
 
 # A least distance is known to this share of the turn radius, a twentieth of a millimetre of 50 m: two splits reach it
 # where a distance stays the same.
@@ -74,6 +78,8 @@ def sampled_distances(
 def sample_times(until_s: float, aircraft: Aircraft) -> NDArray[float64]:
     """Times from 0 to `until_s` at which a search begins, seconds."""
     radii = until_s * aircraft.airspeed_m_s / aircraft.turn_radius_m
+    if radii > MOST_RADII:
+        raise OutOfRange(f"the flights are {radii:g} turn radii long: distances are found along {MOST_RADII:g} at most")
     return np.linspace(0.0, until_s, ceil(radii * PARTS_PER_RADIUS) + 1)
 
 
