@@ -117,7 +117,7 @@ def number(argument: str, value: object, unit: str) -> float:
 def positive(argument: str, value: object, unit: str) -> float:
     """`value` as a finite float above zero, in `unit` where it is a quantity of pint."""
     x = as_float(in_unit(value, unit))
-    least, largest = (LEAST_SIZE, LARGEST_SIZE) if unit.startswith("metres") else (0.0, inf)
+    least, largest = (LEAST_SIZE, LARGEST_SIZE) if unit[:6] == "metres" else (0.0, inf)
     if not (0.0 < x < inf and least <= x <= largest):
         _refuse(argument, value, f"a positive, finite number of {unit}{_range(x)}")
     return x

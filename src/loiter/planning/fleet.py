@@ -375,13 +375,6 @@ def fleet_period_s(plan: FleetPlan) -> float:
     return _ring_of(plan).period_s
 
 
-def fleet_tracks(plan: FleetPlan, times_s: NDArray[float64]) -> Any:
-    """The places of all aircraft (rows) at times, seconds, in the hold too: east + 1j north, metres."""
-    import numpy as np
-
-    return np.array([track(times_s) for track in tracks_of(plan.entries, plan.slots, _ring_of(plan))])
-
-
 def slot_tracks(plan: FleetPlan, times_s: NDArray[float64]) -> Any:
     """The places of all slots (rows) at times, seconds: east + 1j north, metres."""
     import numpy as np

@@ -636,9 +636,13 @@ return new Map([["kind", mark.kind], ["does", mark.action], ["time_s", mark.time
 }
 
 function positive(argument, value, unit) {
-let x;
+let largest, least, x;
 x = float(arrays.same(value, unit));
-return ((lt(0.0, x) && lt(x, math.inf)) ? x : arrays.refuse(argument, value, `a positive, finite number of ${str(unit)}`));
+[least, largest] = iter((eq(sliced(unit, null, 6, null), "metres") ? [LEAST_SIZE, LARGEST_SIZE] : [0.0, math.inf]));
+if (!((lt(0.0, x) && lt(x, math.inf)) && (le(least, x) && le(x, largest)))) {
+arrays.refuse(argument, value, `a positive, finite number of ${str(unit)}${str(_range(x))}`);
+}
+return x;
 }
 
 function _least_count(maneuver, segment, spacing_m, chord_error_m, bend_per_m) {
@@ -949,6 +953,13 @@ place = `${format(longitude, `${String(DEGREES)}`)},${format(latitude, `${String
 return ((chart.altitude_m == null) ? place : `${str(place)},${str(chart.altitude_m)}`);
 }
 
+function _range(x) {
+if ((!truth(math.isfinite(x)) || eq(x, 0.0) || (le(LEAST_SIZE, abs(x)) && le(abs(x), LARGEST_SIZE)))) {
+return "";
+}
+return `, from ${format(LEAST_SIZE, `g`)} to ${format(LARGEST_SIZE, `g`)} in size: this is too ${str((lt(abs(x), 1.0) ? "small" : "large"))}`;
+}
+
 function true_headings(frame, heading_deg, latitude, longitude) {
 let true_deg;
 
@@ -1087,7 +1098,10 @@ throw errors.InvalidArgument("home_altitude_m", `is missing: a mission in ${str(
 function number(argument, value, unit) {
 let x;
 x = float(arrays.same(value, unit));
-return (truth(math.isfinite(x)) ? x : arrays.refuse(argument, value, `a finite number of ${str(unit)}`));
+if (!le(abs(x), LARGEST_SIZE)) {
+arrays.refuse(argument, value, `a finite number of ${str(unit)}${str(_range(x))}`);
+}
+return x;
 }
 
 function _check_range(argument, altitude_m) {
@@ -7011,6 +7025,8 @@ const MARK = "QGC WPL";
 const HEADER = `${str(MARK)} 110`;
 const ACTIONS = new Map([["L", "turn left"], ["S", "fly straight"], ["R", "turn right"]]);
 const DECIMALS = 9;
+const LEAST_SIZE = 1e-50;
+const LARGEST_SIZE = 1e+50;
 const ALTITUDE_MODES = new Map([[Frame.ABOVE_SEA, 2], [Frame.ABOVE_HOME, 1], [Frame.ABOVE_TERRAIN, 4]]);
 const UNITS = new Map([[AltitudeReference.MSL, "metres above mean sea level"], [AltitudeReference.HOME, "metres above home"], [AltitudeReference.GROUND, "metres above the ground"]]);
 const FRAMES = new Map([[AltitudeReference.MSL, Frame.ABOVE_SEA], [AltitudeReference.HOME, Frame.ABOVE_HOME], [AltitudeReference.GROUND, Frame.ABOVE_TERRAIN]]);
