@@ -8,17 +8,14 @@ from hypothesis import strategies as st
 
 from loiter import (
     Aircraft,
-    Landing,
     Leg,
     Orbit,
     Pose,
-    Runway,
     Wind,
     candidates,
     hold,
     plan,
     plan_all,
-    plan_landing,
     plan_leg,
 )
 from loiter.errors import InvalidArgument, LoiterError
@@ -65,8 +62,6 @@ def plans(v, limit, moves, windy):
     yield lambda: plan_all(pose, orbit, uav, wind)
     yield lambda: candidates(pose, orbit, uav, wind)
     yield lambda: [plan_leg(Leg(pose, orbit, (v[12], v[13]), hold_s=v[14]), uav, wind).entry]
-    landing = Landing(Pose(*v[:3], v[15]), Runway(v[12], v[13], v[11], 10.0), v[5], v[14] + 500.0)
-    yield lambda: [plan_landing(landing, uav, wind).entry]
     yield lambda: hold(orbit, uav, wind, turn="cw").at(v[2]) and []
     zones = CircleZone("a", v[12], v[13], v[5]), PolygonZone("b", ((v[12], v[0]), (v[4], v[13]), (v[15], v[14])))
     for zone in zones:
