@@ -10,8 +10,9 @@ from rich.progress import Progress, Task
 from cli.test_guide import GUIDE, flown
 from loiter.batch import JobProgress
 from loiter.cli.app import main
-from loiter.cli.commands import batch, fly
+from loiter.cli.commands import batch
 from loiter.cli.commands import mavlink as transfer
+from loiter.lab import fly
 from mavlink.flyer import GuidedPlane
 from mavlink.test_watch import Flight
 from mavlink.vehicle import Plane, Vehicle, flying

@@ -326,7 +326,7 @@ def test_the_table_prints_where_only_ascii_can_be_written():
 
 def test_the_examples_of_the_help_run(shown, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    examples = re.findall(r"^  loiter (plan .*)$", shown("--help").replace("\\\n", ""), re.MULTILINE)
+    examples = re.findall(r"^  loiter (plan .*)$", shown("plan --help").replace("\\\n", ""), re.MULTILINE)
     assert len(examples) == 5
     write_fence(tmp_path / "field.plan")
     for example in examples:
