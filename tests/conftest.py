@@ -43,6 +43,6 @@ def planned(shown):
 @pytest.fixture
 def quick(monkeypatch):
     """Vehicles are waited for a tenth as long as real ones."""
-    from mavlink.vehicle import shorten_waits
+    from flight.vehicle import shorten_waits
 
     shorten_waits(monkeypatch)

@@ -8,9 +8,9 @@ from collections import Counter
 from pathlib import Path
 
 from loiter.errors import LoiterError
-from loiter.io import Autopilot, Frame, Mission, MissionItem, read_mission, read_parameters
-from loiter.io.missions.qgcplan import qgcplan
-from loiter.io.missions.wpl import wpl
+from loiter.files import Autopilot, Frame, Mission, MissionItem, read_mission, read_parameters
+from loiter.files.missions.qgcplan import qgcplan
+from loiter.files.missions.wpl import wpl
 
 # What to put in the place of something else.
 ODD = [

@@ -101,7 +101,7 @@ def test_a_watch_can_be_closed(checked):
         "from contextlib import closing",
         "from loiter import Aircraft, Orbit",
         "from loiter.geo import LocalFrame",
-        "from loiter.mavlink import watch",
+        "from loiter.flight import watch",
         "uav = Aircraft(airspeed_m_s=18.0, max_bank_deg=35.0)",
         'with closing(watch("udpin:0.0.0.0:14550", Orbit(0.0, 0.0, 80.0), LocalFrame(47.0, 8.0), uav)) as reports:',
         "    times: list[float] = [report.time_to_join_s for report in reports]",
@@ -147,7 +147,7 @@ def test_no_overload_takes_what_is_no_array(checked):
 
 def public_callables():
     """Every public function and class, with its methods and properties, by name."""
-    for package in ("", ".errors", ".batch", ".geo", ".guidance", ".io", ".mavlink", ".plot", ".certificate"):
+    for package in ("", ".errors", ".batch", ".geo", ".guidance", ".files", ".flight", ".plot", ".certificate"):
         module = import_module(f"loiter{package}")
         for name in getattr(module, "__all__", [each for each in vars(module) if not each.startswith("_")]):
             value = getattr(module, name)

@@ -5,10 +5,25 @@ from inspect import isclass, isfunction, signature
 import pytest
 
 import loiter
-from loiter import Aircraft, Maneuver, Orbit, Pose, Wind, batch, certificate, fences, geo, guidance, io, mavlink, plot
+from loiter import (
+    Aircraft,
+    Maneuver,
+    Orbit,
+    Pose,
+    Wind,
+    batch,
+    certificate,
+    fences,
+    files,
+    fleets,
+    flight,
+    geo,
+    guidance,
+    plot,
+)
 from loiter.errors import InvalidArgument
+from loiter.files import Mission, Site
 from loiter.guidance import State
-from loiter.io import Mission, Site
 from test_types import public_callables
 
 POSE, ORBIT, UAV = Pose(-400.0, 120.0, 90.0), Orbit(0.0, 0.0, 120.0), Aircraft(18.0, max_bank_deg=35.0)
@@ -23,7 +38,7 @@ LEG = loiter.Leg(POSE, ORBIT, exit_to=(600.0, 0.0))
 LEG_PLAN = loiter.plan_leg(LEG, UAV)
 TABLE = {"columns": {"east_m": "x"}, "origin": FRAME, "orbit_velocity_m_s": (1.0, 0.0), "slot": loiter.Slot(0.0)}
 SCENE = {"orbit": ORBIT, "aircraft": UAV, "wind": WIND}
-SAVED = {"maneuver": MANEUVER, "frame": FRAME, "datum": io.AltitudeDatum(), "altitude_m": 900.0}
+SAVED = {"maneuver": MANEUVER, "frame": FRAME, "datum": files.AltitudeDatum(), "altitude_m": 900.0}
 
 # A function, arguments that it accepts, and those of them that may be of a wrong class.
 CALLS = [
@@ -31,9 +46,9 @@ CALLS = [
     (loiter.plan_at, {"pose": POSE, "time_s": 60.0, "bearing_deg": 90.0, **SCENE}, "pose orbit aircraft wind"),
     (loiter.plan_all, {"pose": POSE, **SCENE}, "pose orbit aircraft wind"),
     (loiter.candidates, {"pose": POSE, **SCENE}, "pose orbit aircraft wind"),
-    (io.leg_mission, {"plan": LEG_PLAN, "frame": FRAME}, "plan frame"),
-    (io.save_leg, {"plan": LEG_PLAN, "path": "leg.kml", "frame": FRAME, "fence": PLACED}, "plan path frame fence"),
-    (loiter.fleet, {"poses": [POSE], **SCENE}, "poses orbit aircraft wind"),
+    (files.leg_mission, {"plan": LEG_PLAN, "frame": FRAME}, "plan frame"),
+    (files.save_leg, {"plan": LEG_PLAN, "path": "leg.kml", "frame": FRAME, "fence": PLACED}, "plan path frame fence"),
+    (fleets.fleet, {"poses": [POSE], **SCENE}, "poses orbit aircraft wind"),
     (loiter.plan_leg, {"leg": LEG, "aircraft": UAV, "wind": WIND}, "leg aircraft wind"),
     (loiter.hold, {**SCENE, "turn": "cw"}, "orbit aircraft wind turn"),
     (loiter.reduce, {"east_m": 0, "north_m": 0, "heading_deg": 0, "orbit": ORBIT, "aircraft": UAV}, "orbit aircraft"),
@@ -56,26 +71,21 @@ CALLS = [
     (PLACED.local, {"frame": FRAME}, "frame"),
     (PLACED.zones[0].local, {"frame": FRAME}, "frame"),
     (PLACED.zones[1].local, {"frame": FRAME}, "frame"),
-    (io.mission, SAVED, "maneuver frame datum"),
-    (io.save, {"path": "x.plan", "site": None, **SAVED}, "maneuver path frame datum site"),
-    (io.save, {"path": "x.kml", "maneuver": MANEUVER}, "maneuver path"),
-    (io.check_format, {"path": "x.kml"}, "path"),
-    (io.read_mission, {"path": "x.plan"}, "path"),
-    (io.read_fence_table, {"path": "x.csv"}, "path"),
-    (io.read_site, {"path": "x.plan"}, "path"),
-    (io.read_fence, {"path": "x.plan"}, "path"),
-    (io.read_parameters, {"path": "x.param"}, "path"),
+    (files.mission, SAVED, "maneuver frame datum"),
+    (files.save, {"path": "x.plan", "site": None, **SAVED}, "maneuver path frame datum site"),
+    (files.save, {"path": "x.kml", "maneuver": MANEUVER}, "maneuver path"),
+    (files.check_format, {"path": "x.kml"}, "path"),
+    (files.read_mission, {"path": "x.plan"}, "path"),
+    (files.read_fence_table, {"path": "x.csv"}, "path"),
+    (files.read_site, {"path": "x.plan"}, "path"),
+    (files.read_fence, {"path": "x.plan"}, "path"),
+    (files.read_parameters, {"path": "x.param"}, "path"),
     (plot.draw, {"best": MANEUVER, "others": [], "frame": FRAME, "fence": FENCE}, "best others frame fence"),
-    (mavlink.upload, {"mission": io.mission(**SAVED), "connection": LINK}, "mission connection"),
-    (mavlink.download, {"connection": LINK}, "connection"),
-    (mavlink.download_fence, {"connection": LINK}, "connection"),
-    (mavlink.watch, {"connection": LINK, "frame": FRAME, **SCENE}, "connection orbit frame aircraft wind"),
-    (
-        mavlink.stream_path,
-        {"connection": LINK, "maneuver": MANEUVER, "frame": FRAME, "altitude_m": 600.0},
-        "connection maneuver frame",
-    ),
-    (mavlink.guide, {"connection": LINK, "orbit": ORBIT, "frame": FRAME}, "connection orbit frame wind log"),
+    (flight.upload, {"mission": files.mission(**SAVED), "connection": LINK}, "mission connection"),
+    (flight.download, {"connection": LINK}, "connection"),
+    (flight.download_fence, {"connection": LINK}, "connection"),
+    (flight.watch, {"connection": LINK, "frame": FRAME, **SCENE}, "connection orbit frame aircraft wind"),
+    (flight.guide, {"connection": LINK, "orbit": ORBIT, "frame": FRAME}, "connection orbit frame wind log"),
     (
         batch.plan,
         {"frame": None, **SCENE, **TABLE},
@@ -118,7 +128,7 @@ def test_a_value_of_another_class_is_refused(function, accepted, argument, tmp_p
 def test_every_public_function_with_such_arguments_is_tested():
     tested = {(getattr(function, "__qualname__", ""), name) for function, _, names in CALLS for name in names.split()}
     classes = {kind.__name__ for kind in (Pose, Orbit, Aircraft, Wind, Maneuver, State, Site, Mission)}
-    classes |= {geo.LocalFrame.__name__, io.AltitudeDatum.__name__}
+    classes |= {geo.LocalFrame.__name__, files.AltitudeDatum.__name__}
     for name, value in public_callables():
         if not isfunction(value) or isclass(value) or not value.__module__.startswith("loiter") or ".errors" in name:
             continue
@@ -138,12 +148,12 @@ def test_every_public_function_with_such_arguments_is_tested():
         (lambda: guidance.LoiterEntry(UAV, ORBIT), f"orbit is {UAV!r}: it must be a loiter.Orbit"),
         (lambda: LAW.step((0.0, 1.0), 0.02), "state is (0.0, 1.0): it must be a loiter.guidance.State"),
         (
-            lambda: io.save(MANEUVER, "x.plan", frame=(47, 8), altitude_m=900),
+            lambda: files.save(MANEUVER, "x.plan", frame=(47, 8), altitude_m=900),
             "frame is (47, 8): it must be a loiter.geo.LocalFrame",
         ),
-        (lambda: io.save(MANEUVER, 5), "path is 5: it must be the path of a file, as text or a pathlib.Path"),
-        (lambda: io.save("m", "x.kml"), "maneuver is 'm': it must be a loiter.Maneuver"),
-        (lambda: mavlink.upload(LINK, LINK), f"mission is {LINK!r}: it must be a loiter.io.Mission"),
+        (lambda: files.save(MANEUVER, 5), "path is 5: it must be the path of a file, as text or a pathlib.Path"),
+        (lambda: files.save("m", "x.kml"), "maneuver is 'm': it must be a loiter.Maneuver"),
+        (lambda: flight.upload(LINK, LINK), f"mission is {LINK!r}: it must be a loiter.files.Mission"),
     ],
 )
 def test_sentences(call, sentence):

@@ -10,6 +10,7 @@ from codegen.arithmetic import Arithmetic
 from codegen.lua import LUA_32BITS, Chunk, note
 from codegen.unit import ROOT, digest
 from loiter.compiled import solver
+from loiter.flight.guiding import hand_over
 from loiter.guidance.entry import entry_planner, join_tracking, law_step, limits, plan, tracking
 from loiter.guidance.estimation import identification_step, observer, turn_fits
 from loiter.guidance.vehicle import fly_as_declared
@@ -17,7 +18,6 @@ from loiter.kernel.statuses import Status
 from loiter.kernel.still_air import synthesis
 from loiter.kernel.wind import wind_search
 from loiter.kernel.wind.hold import tightest_radius
-from loiter.mavlink.guiding import hand_over
 from loiter.planning.model import radius_at_bank
 from loiter.version import __version__
 

@@ -1,6 +1,7 @@
 """The fastest way onto a holding circle for an aircraft of constant speed and bounded turn rate."""
 
 from importlib import import_module
+from importlib.util import find_spec
 
 from loiter.version import __version__ as __version__
 
@@ -9,13 +10,10 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any
 
-    from loiter import batch as batch
     from loiter import certificate as certificate
     from loiter import errors as errors
+    from loiter import files as files
     from loiter import geo as geo
-    from loiter import guidance as guidance
-    from loiter import io as io
-    from loiter import mavlink as mavlink
     from loiter import plot as plot
     from loiter.arrays import (
         Gradient,
@@ -30,7 +28,6 @@ if TYPE_CHECKING:
         solve_in_wind,
     )
     from loiter.planning.arrival import plan_at
-    from loiter.planning.fleet import FleetPlan, fleet
     from loiter.planning.hold import hold
     from loiter.planning.leg import Leg, LegPlan, plan_leg
     from loiter.planning.maneuver import Maneuver
@@ -46,7 +43,6 @@ _NAMES = {
         "arrays": "Gradient Solution WindSolution control gradient min_time min_time_in_wind reduce solve "
         "solve_in_wind",
         "planning.arrival": "plan_at",
-        "planning.fleet": "FleetPlan fleet",
         "planning.hold": "hold",
         "planning.leg": "Leg LegPlan plan_leg",
         "planning.maneuver": "Maneuver",
@@ -56,11 +52,10 @@ _NAMES = {
     }.items()
     for name in names.split()
 }
-_MODULES = {"batch", "errors", "fences", "geo", "guidance", "io", "mavlink", "certificate", "plot"}
+_MODULES = {"certificate", "errors", "fences", "files", "geo", "plot"}
 
 __all__ = [
     "Aircraft",
-    "FleetPlan",
     "Gradient",
     "Leg",
     "LegPlan",
@@ -76,7 +71,6 @@ __all__ = [
     "candidates",
     "control",
     "errors",
-    "fleet",
     "gradient",
     "hold",
     "min_time",
@@ -100,6 +94,7 @@ def __getattr__(name: str) -> "Any":
         value = getattr(import_module(f"loiter.{_NAMES[name]}"), name)
         globals()[name] = value
         return value
-    if name in _MODULES:
+    # The modules above, and the rooms that are installed.
+    if not name.startswith("_") and find_spec(f"loiter.{name}") is not None:
         return import_module(f"loiter.{name}")
     raise AttributeError(f"module 'loiter' has no attribute {name!r}")

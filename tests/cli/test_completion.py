@@ -17,6 +17,7 @@ COMMANDS = [
     "upload",
     "watch",
     "guide",
+    "guide-fleet",
     "synthesis",
     "figures",
     "serve",

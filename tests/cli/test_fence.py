@@ -6,8 +6,8 @@ import pytest
 
 import loiter
 from loiter.cli.app import main
+from loiter.files import read_fence
 from loiter.geo import LocalFrame
-from loiter.io import read_fence
 
 FRAME = LocalFrame(47.11, 8.23)
 UAV = "--airspeed 18 --bank 35"

@@ -7,7 +7,7 @@ import pytest
 from loiter.cli.app import main
 from loiter.errors import InvalidArgument
 from loiter.fences import CircleZone, Fence, PolygonZone
-from loiter.io import read_fence_table
+from loiter.files import read_fence_table
 
 SCENE = "--pose -400 120 90 --orbit 0 0 80 --airspeed 18 --bank 35"
 HEADER = "zone,rule,east_m,north_m,radius_m\n"

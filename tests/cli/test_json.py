@@ -4,18 +4,18 @@ import io
 import json
 
 import pytest
+from cli.test_guide import GUIDE, flown
 from rich.console import Console
 from rich.progress import Progress, Task
 
-from cli.test_guide import GUIDE, flown
+from flight.flyer import GuidedPlane
+from flight.test_watch import Flight
+from flight.vehicle import Plane, Vehicle, flying
 from loiter.batch import JobProgress
 from loiter.cli.app import main
 from loiter.cli.commands import batch
-from loiter.cli.commands import mavlink as transfer
+from loiter.cli.commands import flight as transfer
 from loiter.lab import fly
-from mavlink.flyer import GuidedPlane
-from mavlink.test_watch import Flight
-from mavlink.vehicle import Plane, Vehicle, flying
 
 pytestmark = pytest.mark.usefixtures("quick")
 

@@ -23,9 +23,11 @@ def test_it_is_that_of_the_help():
 # Options that are parsed, to be refused with a sentence, but not shown.
 HIDDEN = {
     "fleet": {"--path"},
+    "guide-fleet": {"--orbit", "--orbit-velocity"},
     "upload": {"--pose", "--orbit"},
     "watch": {"--orbit"},
     "guide": {"--orbit", "--orbit-velocity"},
+    "guide-fleet": {"--orbit", "--orbit-velocity"},
 }
 
 

@@ -5,9 +5,9 @@ import json
 import pytest
 
 import loiter
+from flight.vehicle import Vehicle, flying
 from loiter.fences import PlacedCircle
-from loiter.io import MissionCircle, read_site
-from mavlink.vehicle import Vehicle, flying
+from loiter.files import MissionCircle, read_site
 
 pytestmark = pytest.mark.usefixtures("quick")
 
@@ -79,7 +79,7 @@ def test_home_and_fence_are_kept(existing, shown, tmp_path):
     assert after["geoFence"] == before["geoFence"]
     assert after["mission"]["plannedHomePosition"] == [47.09, 8.21, 450.0]
     assert {item["frame"] for item in after["mission"]["items"]} == {3}
-    assert loiter.io.read_mission(tmp_path / "new.waypoints").home == (47.09, 8.21, 450.0)
+    assert loiter.files.read_mission(tmp_path / "new.waypoints").home == (47.09, 8.21, 450.0)
     assert "The plan and its hold stay clear of the fence, " in text
 
 
@@ -103,8 +103,8 @@ def test_an_upload_outside_the_fence_is_refused(existing, refusal):
     ("arguments", "where"),
     [
         ("fleet none.csv --airspeed 18 --bank 35", "for fleets"),
-        ("guide --fleet none.csv --yes", "for fleets and slots"),
-        ("guide --connect udpin:127.0.0.1:14550 --slot 90 --yes", "for fleets and slots"),
+        ("guide-fleet none.csv --yes", "for fleets"),
+        ("guide --connect udpin:127.0.0.1:14550 --slot 90 --yes", "for slots"),
         ("watch --connect udpin:127.0.0.1:14550 --airspeed 18 --bank 35 --send", "with --send"),
         (f"fly {START} --slot 90 {UAV}", "with --slot"),
     ],
@@ -208,12 +208,12 @@ def test_the_altitude_of_home_is_asked_for_only_where_it_is_needed(existing, sho
     save = f"plan {START} --orbit-from {path} {UAV} --save {new}"
     text = shown(f"{save} --altitude 900")
     assert "The altitude of home is not known, so it is 900 m too" in text
-    latitude, longitude, altitude = loiter.io.read_mission(new).home
+    latitude, longitude, altitude = loiter.files.read_mission(new).home
     expected = (47.09, 8.21) if home and home[0] else (47.1, 8.2)
     assert (latitude, longitude, altitude) == (*(pytest.approx(x, abs=1e-7) for x in expected), 900.0)
     assert "--home-altitude is missing" in refusal(f"{save} --altitude 120 --altitude-reference home")
     shown(f"{save} --altitude 120 --altitude-reference home --home-altitude 450")
-    assert loiter.io.read_mission(new).home[2] == 450.0
+    assert loiter.files.read_mission(new).home[2] == 450.0
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ from geographiclib.geodesic import Geodesic
 import loiter
 from loiter import Aircraft, Orbit
 from loiter.cli.app import main
-from loiter.io.files import FILE_FORMATS
+from loiter.files.formats import FILE_FORMATS
 
 UAV = "--airspeed 18 --bank 35"
 HOME_UNKNOWN = """\
@@ -135,7 +135,7 @@ def test_saving_writes_what_the_library_writes(shown, tmp_path, ending):
     shown(f"plan {PLACED} {UAV} --altitude 900 --spacing 100 --save {path}")
     frame = loiter.geo.LocalFrame(47.11, 8.23)
     best = loiter.plan(frame.pose(47.1, 8.2, 90.0), Orbit(0.0, 0.0, 120.0), Aircraft(18.0, max_bank_deg=35.0))
-    loiter.io.save(best, tmp_path / f"same.{ending}", frame=frame, altitude_m=900.0, spacing_m=100.0)
+    loiter.files.save(best, tmp_path / f"same.{ending}", frame=frame, altitude_m=900.0, spacing_m=100.0)
     assert path.read_bytes() == (tmp_path / f"same.{ending}").read_bytes()
 
 
@@ -154,7 +154,7 @@ def test_a_mission_follows_the_options(shown, tmp_path):
 def test_a_mission_above_home_or_ground(shown, tmp_path, ending, reference, frame):
     path = tmp_path / f"entry.{ending}"
     shown(f"plan {PLACED} {UAV} --altitude 120 --altitude-reference {reference} --home-altitude 450 --save {path}")
-    flown = loiter.io.read_mission(path)
+    flown = loiter.files.read_mission(path)
     assert {(item.frame, item.altitude_m) for item in flown.items} == {(frame, 120.0)}
     assert flown.home[2] == 450.0
 
@@ -325,5 +325,5 @@ def test_saved_missions_say_what_their_altitude_means(shown, tmp_path, monkeypat
     scene = "--pose-lla 47.1 8.2 90" if "--orbit-lla" in options else PLACED
     before, _, _ = shown(f"plan {scene} {UAV} {options}").rpartition("Wrote ")
     assert before.rpartition("--all shows each.\n")[2] == said
-    homes = {loiter.io.read_mission(path).home[2] for path in tmp_path.glob("a.*") if path.suffix != ".kml"}
+    homes = {loiter.files.read_mission(path).home[2] for path in tmp_path.glob("a.*") if path.suffix != ".kml"}
     assert len(homes) <= 1

@@ -19,8 +19,9 @@ PACKAGES = [
     "loiter.fences",
     "loiter.geo",
     "loiter.guidance",
-    "loiter.io",
-    "loiter.mavlink",
+    "loiter.files",
+    "loiter.fleets",
+    "loiter.flight",
     "loiter.plot",
     "loiter.certificate",
 ]
@@ -85,7 +86,7 @@ def keys(value):
 
 def documents():
     from loiter.certificate.entry_certificate import certify
-    from loiter.io.document import answer
+    from loiter.files.document import answer
 
     uav = loiter.Aircraft(18.0, max_bank_deg=35.0)
     scene = loiter.Pose(-400.0, 120.0, 90.0), loiter.Orbit(0.0, 0.0, 120.0), uav

@@ -17,8 +17,8 @@ import numpy as np
 from guidance import slot_flights_in_c
 from guidance.formation import phase_along
 from loiter import Aircraft, Orbit, Pose, Wind, fleet
+from loiter.fleets.planning import FleetPlan, fleet_period_s, slot_tracks
 from loiter.guidance.entry.slot_entry import BAND, SlotEntry
-from loiter.planning.fleet import FleetPlan, fleet_period_s, slot_tracks
 from loiter.planning.model import sign_of
 
 UAV, STEP_S, GUST = Aircraft(18.0, max_bank_deg=35.0), 0.05, 0.05

@@ -15,12 +15,12 @@ from codegen.lua import LUA
 from codegen.onboard.lua_files import APPLET, FOLDER, applet_files, law
 from guidance.test_law_in_c import START, UAV, same
 from loiter import Aircraft, Orbit, Pose, Wind
+from loiter.flight.guiding.hand_over import DOWNWIND_SHARE
 from loiter.guidance.entry import join_tracking
 from loiter.guidance.entry.loiter_entry import LoiterEntry
 from loiter.kernel.still_air import synthesis
 from loiter.kernel.wind.wind_search import WindProblem, fastest, time_of
 from loiter.lab.simulators.point_mass import PointMass
-from loiter.mavlink.guiding.hand_over import DOWNWIND_SHARE
 from native import states
 from native.applet import (
     AIRCRAFT,

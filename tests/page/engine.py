@@ -16,11 +16,11 @@ from pathlib import Path
 from benchmarks.browsing import NODE
 from loiter.errors import InvalidArgument, LoiterError, NotConverged, OutOfRange, RadiusTooSmall, WindTooStrong
 from loiter.fences import CircleZone, Fence, PolygonZone
+from loiter.files.document import PlacedProblem
+from loiter.files.formats import FILE_FORMATS, SaveArguments, file_content
+from loiter.files.missions.altitudes import AltitudeDatum, AltitudeReference
+from loiter.files.missions.items import AUTOPILOTS
 from loiter.geo import LocalFrame
-from loiter.io.document import PlacedProblem
-from loiter.io.files import FILE_FORMATS, SaveArguments, file_content
-from loiter.io.missions.altitudes import AltitudeDatum, AltitudeReference
-from loiter.io.missions.items import AUTOPILOTS
 from loiter.page.answers import fences, plans
 from loiter.page.answers.files import check_points
 from loiter.page.answers.refusals import SCENE_FIELDS, SceneField

@@ -6,8 +6,8 @@ import pytest
 from playwright.sync_api import expect
 
 import loiter
+from loiter.files import save
 from loiter.geo import LocalFrame
-from loiter.io import save
 from page.browsing import (
     DESK,
     PHONE,

@@ -1,8 +1,8 @@
-"""The formats of the page are those of the registry, `loiter.io.files` and `loiter.plot.files`."""
+"""The formats of the page are those of the registry, `loiter.files.formats` and `loiter.plot.files`."""
 
 import re
 
-from loiter.io.files import FILE_FORMATS
+from loiter.files.formats import FILE_FORMATS
 from loiter.plot.files import PICTURE_FORMATS
 from page.browsing import SOURCE
 

@@ -8,9 +8,9 @@ import pytest
 from playwright.sync_api import expect
 
 import loiter
+from loiter.files.legs import leg_text
+from loiter.files.missions.items import Autopilot
 from loiter.geo import LocalFrame
-from loiter.io.legs import leg_text
-from loiter.io.missions.items import Autopilot
 from page.browsing import (
     CHORDS,
     PHONE,

@@ -3,7 +3,7 @@
 import pytest
 from playwright.sync_api import expect
 
-from loiter.io import read_mission
+from loiter.files import read_mission
 from page.browsing import PHONE, fly_at, located, measure_from, reference_of, reopen, scene, settle
 
 FORMATS = ["plan", "waypoints"]

@@ -12,7 +12,7 @@ import pytest
 import loiter
 from loiter import Aircraft, Orbit, Pose, Wind, plan
 from loiter.errors import InvalidArgument, MissingPackage
-from loiter.io.document import maneuver_values
+from loiter.files.document import maneuver_values
 from loiter.planning import drawing
 
 UAV = Aircraft(18.0, max_bank_deg=35.0)

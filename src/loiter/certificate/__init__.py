@@ -1,6 +1,8 @@
 """Certificates of single maneuvers: the conditions of the maximum principle, checked one by one."""
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from loiter.lazy import lazy_names
 
 if TYPE_CHECKING:
     from loiter.certificate.entry_certificate import Certificate, certify
@@ -9,10 +11,15 @@ if TYPE_CHECKING:
 __all__ = ["ArrivalCertificate", "Certificate", "SlotCertificate", "certify", "certify_arrival", "certify_slot"]
 
 
-def __getattr__(name: str) -> Any:
-    # Imported on first use: the certificate needs the kernel, which the oracle must not load.
-    if name in __all__:
-        from loiter.certificate import entry_certificate, slot_certificate
-
-        return getattr(entry_certificate if name in ("Certificate", "certify") else slot_certificate, name)
-    raise AttributeError(f"module 'loiter.certificate' has no attribute {name!r}")
+# Imported on first use: the certificate needs the kernel, which the oracle must not load.
+__getattr__ = lazy_names(
+    __name__,
+    {
+        "ArrivalCertificate": "slot_certificate",
+        "Certificate": "entry_certificate",
+        "SlotCertificate": "slot_certificate",
+        "certify": "entry_certificate",
+        "certify_arrival": "slot_certificate",
+        "certify_slot": "slot_certificate",
+    },
+)

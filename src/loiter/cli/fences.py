@@ -13,8 +13,8 @@ from rich.console import RenderableType
 from loiter.cli import report
 from loiter.cli.options import Metres, scene
 from loiter.errors import InvalidArgument, LoiterError, clause
+from loiter.files.document import maneuver_values
 from loiter.geo import LocalFrame
-from loiter.io.document import maneuver_values
 from loiter.planning.problem import Problem
 
 if TYPE_CHECKING:
@@ -22,9 +22,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from loiter.fences import ClearEntry, Fence, FenceCheck, PlacedFence
-    from loiter.io.missions.items import Mission
-    from loiter.io.missions.site import Site
-    from loiter.mavlink.guiding.preparation import OwnFence
+    from loiter.files.missions.items import Mission
+    from loiter.files.missions.site import Site
     from loiter.planning.leg import LegPlan
     from loiter.planning.maneuver import Maneuver
 
@@ -52,11 +51,11 @@ class FenceOptions:
         A .csv is a table in local metres; all other files have places in degrees.
         """
         if self.fence is not None and self.fence.suffix.lower() == ".csv":
-            from loiter.io.fence_table import read_fence_table
+            from loiter.files.fence_table import read_fence_table
 
             return read_fence_table(self.fence)
         if self.fence is not None:
-            from loiter.io.missions.fences import read_fence
+            from loiter.files.missions.fences import read_fence
 
             return read_fence(self.fence)
         found = None if site is None else site.fence
@@ -81,35 +80,6 @@ class LegFenceOptions(FenceOptions):
 
     fence: FenceFile = None
     """Fence of polygons and circles, in the formats of loiter plan. A line says whether the way in, the whole circle and the way out stay clear, and if not, where and when they enter which zone: exit status 1. A .plan has the fence too."""
-
-
-@Parameter(name="*")
-@dataclass(frozen=True)
-class FlownFenceOptions(FenceOptions):
-    """A fence that a simulated flight stays clear of."""
-
-    fence: FenceFile = None
-    """The optimal law stays clear of a fence: that of a file, as for loiter plan. Lines say how far each law stayed from it."""
-
-
-@Parameter(name="*")
-@dataclass(frozen=True)
-class GuidedFenceOptions(FenceOptions):
-    """A fence, which may be that of the vehicle."""
-
-    fence: FenceFile = None
-    """Stay clear of a fence: that of a file, as for loiter plan, with --fence vehicle the one that the vehicle has, or that of --orbit-from if absent. The fastest clear entry that is found is flown, and a flight without any refused. In flight the vehicle is handed back to its own hold where it enters a zone."""
-
-    def of_flight(self, site: Site | None) -> PlacedFence | OwnFence | None:
-        """The fence of the file or of an existing mission, or "vehicle"; None without one. Raises `InvalidArgument`."""
-        if self.fence == Path("vehicle"):
-            return "vehicle"
-        from loiter.fences import Fence
-
-        found = self.read(site)
-        if isinstance(found, Fence):
-            raise InvalidArgument("fence", METRES_ONLY)
-        return found
 
 
 class CheckedFence(NamedTuple):
@@ -204,8 +174,8 @@ class NotSent(NamedTuple):
 
 def check_own_fence(path: Path, mission: Mission) -> NotSent:
     """What is not sent with the mission of a file; `InvalidArgument` where it enters the file's own fence."""
-    from loiter.io.missions.own_fence import mission_breach
-    from loiter.io.missions.site import read_site
+    from loiter.files.missions.own_fence import mission_breach
+    from loiter.files.missions.site import read_site
 
     site = read_site(path, "mission")
     if site.fence is None:

@@ -29,15 +29,15 @@ from loiter.cli.numbers import (
 )
 from loiter.cli.sentences import argument_names
 from loiter.errors import InvalidArgument, positive
+from loiter.files.missions.altitudes import MEAN_SEA_LEVEL, AltitudeDatum, AltitudeReference
+from loiter.files.missions.items import AutopilotName
 from loiter.geo import LocalFrame, density_altitude_m, true_airspeed
-from loiter.io.missions.altitudes import MEAN_SEA_LEVEL, AltitudeDatum, AltitudeReference
-from loiter.io.missions.items import AutopilotName
 from loiter.planning.model import CALM, Aircraft, Orbit, Turn, TurnName, Wind, circle_radius_m
 from loiter.plot import files
 
 if TYPE_CHECKING:
-    from loiter.io.missions.parameters import Preset
-    from loiter.io.missions.site import Site
+    from loiter.files.missions.parameters import Preset
+    from loiter.files.missions.site import Site
 
 scene = Group("Scene", sort_key=1)
 aircraft = Group("Aircraft: the airspeed and exactly one limit on the turn", sort_key=2)
@@ -167,7 +167,7 @@ class OrbitOptions:
         """The circles, the home and the fence of the mission; None without one. Raises `InvalidArgument`."""
         if self.orbit_from is None:
             return None
-        from loiter.io.missions.site import read_site
+        from loiter.files.missions.site import read_site
 
         return read_site(self.orbit_from, "orbit_from")
 
@@ -212,18 +212,6 @@ class PlacedOrbitOptions(OrbitOptions):
     """The circle in degrees; otherwise like `PlacedStartOptions`."""
 
     orbit: Annotated[Circle, EAST_NORTH_RADIUS, Parameter(show=False)] = ()
-
-
-@Parameter(name="*", group=scene)
-@dataclass(frozen=True)
-class GuidedOrbitOptions(PlacedOrbitOptions):
-    """The circle, which an autopilot must be able to hold: --orbit-velocity is parsed, but hidden."""
-
-    orbit_lla: Annotated[Circle, LAT_LON_RADIUS] = ()
-    """The circle: centre in WGS84 degrees, radius in metres."""
-    turn: TurnChoice = None
-    """Direction of flight around the circle, seen from above; the faster one if absent."""
-    orbit_velocity: Annotated[tuple[float, float], VELOCITY, Parameter(show=False)] = (0.0, 0.0)
 
 
 def written_altitude(altitude_m: float | None) -> float | None:
@@ -274,7 +262,7 @@ class AircraftOptions:
         """The values of the parameter file; None without one."""
         if self.params is None:
             return None
-        from loiter.io.missions.parameters import read_parameters
+        from loiter.files.missions.parameters import read_parameters
 
         return read_parameters(self.params)
 
@@ -356,28 +344,6 @@ class PlannedAircraftOptions(AircraftOptions):
 
     altitude: Altitude = None
     """Altitude above mean sea level, or above --altitude-reference; metres, or with a unit: 3000ft. It is written to missions and maps, and converts an indicated airspeed to true airspeed, which is higher in thin air; for that alone it may be a flight level: FL100."""
-
-
-@Parameter(name="*", group=aircraft)
-@dataclass(frozen=True)
-class WatchedAircraftOptions(AircraftOptions):
-    """The aircraft; with --send it is commanded to fly at the altitude."""
-
-    altitude: Altitude = None
-    """Altitude, always above mean sea level; metres, or with a unit: 3000ft. With --send the circle is flown at this altitude, at the present one if absent. It also converts an indicated airspeed to true airspeed, which is higher in thin air; for that alone it may be a flight level: FL100."""
-
-
-@Parameter(name="*", group=vehicle_limits)
-@dataclass(frozen=True)
-class GuidedVehicleOptions:
-    """The vehicle, as far as its own parameters are not to be used."""
-
-    airspeed: Speed = None
-    """True airspeed, metres per second, or with a unit: 35kn."""
-    bank: Angle = None
-    """Largest bank, at most that of the autopilot."""
-    altitude: Altitude = None
-    """Altitude at which the circle is flown, always above mean sea level; metres, or with a unit: 3000ft. The present one if absent."""
 
 
 Declination = Annotated[

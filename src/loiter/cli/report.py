@@ -11,9 +11,9 @@ from rich.console import Console, RenderableType
 from rich.table import Table
 from rich.text import Text
 
+from loiter.files.missions.altitudes import AltitudeDatum, AltitudeReference
 from loiter.geo import LocalFrame
 from loiter.geo.frame import degrees_of
-from loiter.io.missions.altitudes import AltitudeDatum, AltitudeReference
 from loiter.planning.compass import wrapped
 from loiter.planning.flight import radius_of
 from loiter.planning.leg import LegPlan

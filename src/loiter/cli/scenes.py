@@ -9,16 +9,16 @@ from typing import TYPE_CHECKING, NamedTuple
 from loiter.cli.options import AircraftOptions, OrbitOptions, StartOptions, WindOptions
 from loiter.cli.sentences import argument_names
 from loiter.errors import InvalidArgument, RadiusTooSmall
+from loiter.files.document import PlacedProblem
+from loiter.files.missions.altitudes import MEAN_SEA_LEVEL, AltitudeDatum
 from loiter.geo import LocalFrame
 from loiter.geo.frame import degrees_of
-from loiter.io.document import PlacedProblem
-from loiter.io.missions.altitudes import MEAN_SEA_LEVEL, AltitudeDatum
 from loiter.planning.model import Aircraft, Orbit, Pose, Wind
 from loiter.planning.problem import Problem
 from loiter.planning.slot import Slot
 
 if TYPE_CHECKING:
-    from loiter.io.missions.parameters import Preset
+    from loiter.files.missions.parameters import Preset
 
 # Places in degrees that are read as metres lie no further apart than this.
 FEW_DEGREES = 2.0

@@ -16,7 +16,7 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
 import loiter
-from loiter.cli.fences import CheckedFence, FlownFenceOptions, check_fence
+from loiter.cli.fences import CheckedFence, FenceFile, FenceOptions, check_fence
 from loiter.cli.numbers import whole
 from loiter.cli.options import (
     AircraftOptions,
@@ -75,6 +75,15 @@ Replay = Annotated[
         help="Instead of a simulation: the log of loiter guide, .csv or .parquet; --plot draws it.",
     ),
 ]
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
+class FlownFenceOptions(FenceOptions):
+    """A fence that a simulated flight stays clear of."""
+
+    fence: FenceFile = None
+    """The optimal law stays clear of a fence: that of a file, as for loiter plan. Lines say how far each law stayed from it."""
 
 
 @Parameter(name="*", group=simulation)

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 from loiter.cli.output import Output
 from loiter.cli.report import json_value
 from loiter.errors import InvalidArgument, MissingPackage
-from loiter.io.flight_log import check_columns, read_log
+from loiter.files.flight_log import check_columns, read_log
 
 
 class StageFlown(NamedTuple):

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from rich.table import Table
 
 from loiter.cli import report
-from loiter.io.document import maneuver_values
+from loiter.files.document import maneuver_values
 from loiter.lab.trials.summary import CampaignSummary, summary
 
 if TYPE_CHECKING:

@@ -33,11 +33,11 @@ from loiter.cli.scenes import fit_proposed, read_options
 from loiter.cli.sentences import argument_names
 from loiter.cli.status import CHECK_FAILED
 from loiter.errors import InvalidArgument
+from loiter.files.legs import check_leg_format, leg_content
+from loiter.files.missions.items import AUTOPILOTS, AutopilotName
+from loiter.files.missions.site import Site
 from loiter.geo import LocalFrame, density_ratio
 from loiter.geo.atmosphere import LAPSE_K_PER_M
-from loiter.io.legs import check_leg_format, leg_content
-from loiter.io.missions.items import AUTOPILOTS, AutopilotName
-from loiter.io.missions.site import Site
 from loiter.planning.leg import Leg, LegPlan, plan_leg
 from loiter.planning.model import Aircraft
 

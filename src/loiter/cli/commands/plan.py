@@ -39,11 +39,11 @@ from loiter.cli.scenes import fit_proposed, read_options, slot_of
 from loiter.cli.sentences import argument_names
 from loiter.cli.status import CHECK_FAILED
 from loiter.errors import InvalidArgument
-from loiter.io.document import answer
-from loiter.io.files import FILE_FORMATS, SaveArguments, check_format, file_content, is_mission
-from loiter.io.missions.altitudes import AltitudeReference
-from loiter.io.missions.items import AUTOPILOTS, Autopilot, AutopilotName
-from loiter.io.missions.mission import stored_radius_remark
+from loiter.files.document import answer
+from loiter.files.formats import FILE_FORMATS, SaveArguments, check_format, file_content, is_mission
+from loiter.files.missions.altitudes import AltitudeReference
+from loiter.files.missions.items import AUTOPILOTS, Autopilot, AutopilotName
+from loiter.files.missions.mission import stored_radius_remark
 from loiter.planning.arrival import best_and_others_at
 from loiter.planning.maneuver import Maneuver
 from loiter.planning.model import Turn

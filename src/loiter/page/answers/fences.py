@@ -8,7 +8,7 @@ from typing import Any
 from loiter.errors import InvalidArgument
 from loiter.fences.clear_entry import ClearEntry, fastest_clear
 from loiter.fences.fence import Fence, check
-from loiter.io.document import PlacedProblem, maneuver_values
+from loiter.files.document import PlacedProblem, maneuver_values
 from loiter.page.answers.plans import first_maneuver
 from loiter.page.answers.texts import instruction
 from loiter.page.answers.tracks import lap, track

@@ -1,7 +1,7 @@
 """What the page does not write to a file."""
 
 from loiter.errors import InvalidArgument
-from loiter.io.maps.track import step_counts
+from loiter.files.maps.track import step_counts
 from loiter.planning.maneuver import Maneuver
 
 # The most points of a track that the page writes to a file, a second's work; `loiter plan --save` has no such limit.

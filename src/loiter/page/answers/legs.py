@@ -10,9 +10,9 @@ import numpy as np
 from loiter.arrays import reduce
 from loiter.errors import InvalidArgument
 from loiter.fences.fence import Fence, check
-from loiter.io.document import PlacedProblem, maneuver_values
-from loiter.io.legs import leg_text
-from loiter.io.missions.items import Autopilot
+from loiter.files.document import PlacedProblem, maneuver_values
+from loiter.files.legs import leg_text
+from loiter.files.missions.items import Autopilot
 from loiter.page.answers.texts import leg_command, leg_instruction, leg_python
 from loiter.page.answers.tracks import LAP_STEPS, track
 from loiter.planning.leg import HoldState, Leg, LegPlan, climb_time_s, hold_states, plan_leg
@@ -63,7 +63,7 @@ def leg_fence_check(placed: PlacedProblem, asked: LegRequest, fence: Fence, marg
 
 
 def leg_file(placed: PlacedProblem, asked: LegRequest, ending: str) -> bytes:
-    """A leg as a file of `loiter.io.save_leg`, for ArduPilot."""
+    """A leg as a file of `loiter.files.save_leg`, for ArduPilot."""
     if placed.frame is None:
         raise InvalidArgument("frame", f"is missing: a {ending} file needs places on Earth")
     return leg_text(_planned(placed, asked), ending, placed.frame, Autopilot.ARDUPILOT)

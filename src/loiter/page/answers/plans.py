@@ -7,7 +7,7 @@ from typing import Any
 
 from loiter.certificate.entry_certificate import Instant, certify
 from loiter.certificate.slot_certificate import certify_slot
-from loiter.io.document import PlacedProblem, answer
+from loiter.files.document import PlacedProblem, answer
 from loiter.page.answers.texts import command, instruction, python
 from loiter.page.answers.tracks import track
 from loiter.planning.maneuver import Maneuver

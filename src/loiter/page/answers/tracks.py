@@ -6,7 +6,7 @@ from dataclasses import replace
 from math import pi
 
 from loiter.arrays import reduce
-from loiter.io.maps.track import step_counts, vertices
+from loiter.files.maps.track import step_counts, vertices
 from loiter.kernel.wind.hold import hold_pose, phase_of
 from loiter.planning.compass import heading_of
 from loiter.planning.maneuver import Maneuver
