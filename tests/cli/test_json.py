@@ -4,17 +4,17 @@ import io
 import json
 
 import pytest
-from cli.test_guide import GUIDE, flown
 from rich.console import Console
 from rich.progress import Progress, Task
 
 from flight.flyer import GuidedPlane
+from flight.test_guide_command import GUIDE, flown
 from flight.test_watch import Flight
 from flight.vehicle import Plane, Vehicle, flying
 from loiter.batch import JobProgress
 from loiter.cli.app import main
 from loiter.cli.commands import batch
-from loiter.cli.commands import flight as transfer
+from loiter.flight import transfer_commands as transfer
 from loiter.lab import fly
 
 pytestmark = pytest.mark.usefixtures("quick")

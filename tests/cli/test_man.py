@@ -27,7 +27,6 @@ HIDDEN = {
     "upload": {"--pose", "--orbit"},
     "watch": {"--orbit"},
     "guide": {"--orbit", "--orbit-velocity"},
-    "guide-fleet": {"--orbit", "--orbit-velocity"},
 }
 
 

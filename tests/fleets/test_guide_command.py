@@ -17,12 +17,11 @@ from flight.flyer import FRAME, Airframe, FlightPort, GuidedPlane, OffboardPx4, 
 from flight.vehicle import flying, free_port
 from loiter import Aircraft, Orbit, Pose, Slot, Turn, Wind
 from loiter.cli.app import main
-from loiter.cli.commands import guide_fleet
 from loiter.errors import LinkFailed
-from loiter.fleets import fleet
+from loiter.fleets import fleet, guided
+from loiter.fleets import guide_command as guide_fleet
 from loiter.fleets.guided import Ended, FleetRequest, FleetVehicle, GuidedFleet, Member, Waiting, pose_at
 from loiter.flight import GuideReport, Stage
-from loiter.flight.guiding import fleet as guided
 from loiter.flight.guiding import flight
 from loiter.flight.guiding.guide import Target, guide_request
 from loiter.flight.guiding.preparation import Assignment, GuideRequest

@@ -16,7 +16,8 @@ import numpy as np
 
 from guidance import slot_flights_in_c
 from guidance.formation import phase_along
-from loiter import Aircraft, Orbit, Pose, Wind, fleet
+from loiter import Aircraft, Orbit, Pose, Wind
+from loiter.fleets import fleet
 from loiter.fleets.planning import FleetPlan, fleet_period_s, slot_tracks
 from loiter.guidance.entry.slot_entry import BAND, SlotEntry
 from loiter.planning.model import sign_of
