@@ -210,7 +210,7 @@ def test_an_altitude_is_a_number(altitude):
         mission(*entry("cw"), altitude)
 
 
-@pytest.mark.parametrize("altitude", [83_001.0, -1e300])
+@pytest.mark.parametrize("altitude", [83_001.0, -1e49])
 def test_an_altitude_is_one_that_autopilots_take(altitude):
     with pytest.raises(InvalidArgument, match=r"^altitude_m is .*: it must be from -83000 to 83000 metres$"):
         mission(*entry("cw"), altitude)

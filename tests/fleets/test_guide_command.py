@@ -332,7 +332,7 @@ def test_a_question_is_asked_once_and_a_no_commands_nothing(tmp_path, capsys, mo
                 signal.raise_signal(signal.SIGINT)
             return answer()
 
-        monkeypatch.setattr("loiter.flight.guide_command._question", lambda question=question: question)
+        monkeypatch.setattr("loiter.fleets.guide_command.question", lambda question=question: question)
         monkeypatch.setattr("sys.stdin", SimpleNamespace(isatty=lambda: True))
         assert main(f"guide-fleet {table} {GUIDE}".split()) == status
         out, err = capsys.readouterr()

@@ -16,6 +16,7 @@ from loiter.cli.options import (
     Altitude,
     Angle,
     Circle,
+    Metres,  # noqa: F401  # the type of an inherited option is looked up here
     PlacedOrbitOptions,
     Speed,
     TurnChoice,

@@ -23,6 +23,7 @@ from loiter.cli.options import (
     BandedSlotOptions,
     Files,
     Json,
+    Metres,  # noqa: F401  # the type of an inherited option is looked up here
     OrbitOptions,
     PictureOptions,
     StartOptions,
