@@ -30,7 +30,7 @@ collect_ignore = [
 # Files of tests that take more than some six seconds, by folder: `make check` leaves them to `make test`.
 SLOW = {
     "arrays": "entries wind",
-    "batch": "cluster dataset files memory resume urls wind",
+    "tables": "cluster dataset files memory resume urls wind",
     "cli": "errors json man",
     "compiled": "ufuncs wind_solver",
     "documents": "notebooks package site",

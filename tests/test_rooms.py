@@ -12,7 +12,7 @@ import loiter
 
 SOURCE = Path(loiter.__file__).parent
 # Each room, and those that use it.
-ROOMS = {"fleets": (), "flight": ("fleets",), "lab": (), "page": ()}
+ROOMS = {"fleets": (), "flight": ("fleets",), "lab": (), "page": (), "tables": ()}
 
 # Every command that is left shows its help, every module that is left is imported, and a plan is made.
 WORKS = """

@@ -67,7 +67,7 @@ def test_a_turn_may_be_named_wherever_one_is_asked_for(checked):
     [
         ("Orbit(0.0, 0.0, 80.0, turn='left')", "Orbit"),
         ("loiter.hold(Orbit(0.0, 0.0, 80.0), Aircraft(18.0, max_bank_deg=35.0), turn='left')", "hold"),
-        ("loiter.batch.run('states.csv', 'entries.csv', turn='left')", "run"),
+        ("loiter.tables.run('states.csv', 'entries.csv', turn='left')", "run"),
     ],
 )
 def test_another_word_is_an_error(checked, call, name):
@@ -79,7 +79,7 @@ def test_another_word_is_an_error(checked, call, name):
 def test_the_frame_of_a_plan_is_of_the_kind_of_its_argument(checked):
     assert checked(
         "from typing import assert_type",
-        "from loiter import batch",
+        "from loiter import tables",
         "class Table: ...",
         "assert_type(batch.plan(Table(), turn='cw'), Table)",
     ) == (["Success: no issues found in 1 source file"], 0)
@@ -147,7 +147,7 @@ def test_no_overload_takes_what_is_no_array(checked):
 
 def public_callables():
     """Every public function and class, with its methods and properties, by name."""
-    for package in ("", ".errors", ".batch", ".geo", ".guidance", ".files", ".flight", ".plot", ".certificate"):
+    for package in ("", ".errors", ".tables", ".geo", ".guidance", ".files", ".flight", ".plot", ".certificate"):
         module = import_module(f"loiter{package}")
         for name in getattr(module, "__all__", [each for each in vars(module) if not each.startswith("_")]):
             value = getattr(module, name)

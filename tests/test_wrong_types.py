@@ -11,7 +11,6 @@ from loiter import (
     Orbit,
     Pose,
     Wind,
-    batch,
     certificate,
     fences,
     files,
@@ -20,6 +19,7 @@ from loiter import (
     geo,
     guidance,
     plot,
+    tables,
 )
 from loiter.errors import InvalidArgument
 from loiter.files import Mission, Site
@@ -87,12 +87,12 @@ CALLS = [
     (flight.watch, {"connection": LINK, "frame": FRAME, **SCENE}, "connection orbit frame aircraft wind"),
     (flight.guide, {"connection": LINK, "orbit": ORBIT, "frame": FRAME}, "connection orbit frame wind log"),
     (
-        batch.plan,
+        tables.plan,
         {"frame": None, **SCENE, **TABLE},
         "frame orbit aircraft wind turn origin columns orbit_velocity_m_s slot",
     ),
     (
-        batch.run,
+        tables.run,
         {"source": "x.csv", "target": "y.csv", **SCENE, **TABLE},
         "source target rejects orbit aircraft wind turn origin columns orbit_velocity_m_s slot",
     ),
@@ -142,7 +142,7 @@ def test_every_public_function_with_such_arguments_is_tested():
 @pytest.mark.parametrize(
     ("call", "sentence"),
     [
-        (lambda: batch.plan(None, wind=(8, 250)), "wind is (8, 250): it must be a loiter.Wind"),
+        (lambda: tables.plan(None, wind=(8, 250)), "wind is (8, 250): it must be a loiter.Wind"),
         (lambda: certificate.certify("x"), "maneuver is 'x': it must be a loiter.Maneuver"),
         (lambda: certificate.certify([MANEUVER]), "maneuver is of type list: it must be a loiter.Maneuver"),
         (lambda: guidance.LoiterEntry(UAV, ORBIT), f"orbit is {UAV!r}: it must be a loiter.Orbit"),

@@ -11,11 +11,10 @@ from flight.flyer import GuidedPlane
 from flight.test_guide_command import GUIDE, flown
 from flight.test_watch import Flight
 from flight.vehicle import Plane, Vehicle, flying
-from loiter.batch import JobProgress
 from loiter.cli.app import main
-from loiter.cli.commands import batch
 from loiter.flight import transfer_commands as transfer
 from loiter.lab import fly
+from loiter.tables import JobProgress, command
 
 pytestmark = pytest.mark.usefixtures("quick")
 
@@ -203,7 +202,7 @@ def drawn(monkeypatch):
     def console(**_):
         return Console(file=terminal, width=80, force_terminal=True, color_system=None, highlight=False)
 
-    for module in (batch, fly, transfer):
+    for module in (command, fly, transfer):
         monkeypatch.setattr(module, "Console", console)
     monkeypatch.setattr("sys.stderr", terminal)
     monkeypatch.setattr(Progress, "start", lambda self: None)
@@ -213,7 +212,7 @@ def drawn(monkeypatch):
 
 def test_the_bar_of_a_batch_fits_80_columns(drawn, monkeypatch):
     monkeypatch.setattr(Task, "speed", 12_300_000.0)
-    with batch.shown_progress() as report:
+    with command.shown_progress() as report:
         for rows in (1_000_000, 50_000_000):
             report(JobProgress(rows, 123_456_789))
     lines = drawn()

@@ -15,10 +15,9 @@ from hypothesis import strategies as st
 
 from flight.vehicle import mavlink
 from loiter import Aircraft, Orbit, Wind, hold
-from loiter.batch.tables.flight_logs import read_parquet, to_parquet
 from loiter.cli.app import main
 from loiter.errors import InvalidArgument, RadiusTooSmall, WindTooStrong
-from loiter.files.flight_log import TEXTS, LogRow, read_log
+from loiter.files.flight_log import LogRow, read_log
 from loiter.files.missions.items import Autopilot
 from loiter.flight.autopilots.acceleration_sign import CAUTIOUS_DEG, AccelerationSign, is_release, sign_of_version
 from loiter.flight.autopilots.modes import GUIDED, HOLD, OFFBOARD, ModeWatch, is_unfit, mode_name
@@ -992,28 +991,6 @@ def test_a_log_has_every_step_as_soon_as_it_is_flown(tmp_path):
     assert list(columns) == list(LogRow._fields)
 
 
-@pytest.mark.parametrize("error", [None, KeyboardInterrupt])
-def test_a_parquet_log_is_made_from_the_lines_at_the_end(tmp_path, error):
-    path = tmp_path / "flight.parquet"
-
-    def fly():
-        with step_log(path, lambda: CIRCLE) as record:
-            record(report(1.0, on_circle(0.0), estimates()))
-            assert (tmp_path / "flight.parquet.csv").read_text().count("\n") == 2
-            if error:
-                raise error
-
-    if error:
-        with pytest.raises(error):
-            fly()
-    else:
-        fly()
-    assert not (tmp_path / "flight.parquet.csv").exists()
-    columns = read_parquet(path)
-    assert columns["time_s"] == [1.0]
-    assert columns["phase"] == ["no data"]
-
-
 def test_a_log_that_was_cut_in_a_line_is_read_up_to_there(tmp_path):
     path = tmp_path / "flight.csv"
     with step_log(path, lambda: CIRCLE) as record:
@@ -1021,8 +998,6 @@ def test_a_log_that_was_cut_in_a_line_is_read_up_to_there(tmp_path):
             record(report(float(i), on_circle(0.0), estimates()))
     path.write_text(path.read_text()[:-40])
     assert read_log(path)["time_s"] == [0.0, 1.0, 2.0, 3.0]
-    to_parquet(path, tmp_path / "flight.parquet", TEXTS)
-    assert read_parquet(tmp_path / "flight.parquet")["time_s"] == [0.0, 1.0, 2.0, 3.0]
 
 
 @pytest.mark.parametrize(

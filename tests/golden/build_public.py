@@ -15,7 +15,7 @@ import loiter
 
 PACKAGES = [
     "loiter",
-    "loiter.batch",
+    "loiter.tables",
     "loiter.fences",
     "loiter.geo",
     "loiter.guidance",
@@ -23,6 +23,7 @@ PACKAGES = [
     "loiter.fleets",
     "loiter.flight",
     "loiter.plot",
+    "loiter.tables",
     "loiter.certificate",
 ]
 
@@ -99,10 +100,10 @@ def documents():
 
 
 def tables():
-    columns = importlib.import_module("loiter.batch.tables.columns")
-    folder = importlib.import_module("loiter.batch.jobs.folder")
+    columns = importlib.import_module("loiter.tables.columns")
+    files, jobs = (importlib.import_module(f"loiter.tables.{name}") for name in ("files", "jobs"))
     return {
-        "dataset": [folder.SUCCESS, folder.TEMPORARY, folder.part_name(0, 10, "0123456789")],
+        "dataset": [files.SUCCESS, files.TEMPORARY, jobs.part_name(0, 10, "0123456789")],
         "added": columns.added_schema(is_placed=False).names,
         "added on Earth": columns.added_schema(is_placed=True).names,
         "statuses": list(columns.STATUSES),

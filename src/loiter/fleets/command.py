@@ -41,8 +41,8 @@ from loiter.planning.model import Pose
 from loiter.writing import write_content
 
 if TYPE_CHECKING:
-    from loiter.batch.fleets import FleetTable
     from loiter.files.missions.site import Site
+    from loiter.fleets.table import FleetTable
 
 # What missions of a fleet are not.
 NO_SLOTS = "An autopilot flies a mission in its own time: it does not keep the slot."
@@ -114,7 +114,7 @@ def fleet(
     autopilot: AutopilotChoice = "ardupilot",
 ) -> None:
     """Plan the entries of several aircraft onto one circle, each into a slot of its own."""
-    from loiter.batch.fleets import read_fleet
+    from loiter.fleets.table import read_fleet
 
     read = read_circle(circle, uav, air, fit=fit, datum=waypoints.datum(circle.site))
     wanted = Output(json, pictures, save)

@@ -13,7 +13,6 @@ from typing import Annotated, NamedTuple
 from cyclopts import Parameter
 from rich.console import RenderableType
 
-from loiter.batch.fleets import read_connections
 from loiter.cli import report
 from loiter.cli.options import (
     Json,
@@ -27,6 +26,7 @@ from loiter.cli.status import LINK_FAILED, abandon_output
 from loiter.errors import LinkFailed
 from loiter.fleets.command import ShownFleet
 from loiter.fleets.guided import REPORT_S, FleetRequest, GuidedFleet, Member, check_fleet
+from loiter.fleets.table import read_connections
 from loiter.flight.guide_command import GuidingOptions, placed_circle, question
 from loiter.flight.guiding.preparation import GuideRequest
 from loiter.flight.lines import ending_signals, guide_line

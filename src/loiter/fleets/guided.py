@@ -18,9 +18,9 @@ from threading import Event, Thread
 from time import monotonic, time
 from typing import Any, NamedTuple
 
-from loiter.batch.fleets import FleetVehicle
 from loiter.errors import InvalidArgument, LinkFailed, LoiterError, not_negative
 from loiter.fleets.planning import FleetPlan, fleet, rounded_down
+from loiter.fleets.table import FleetVehicle
 from loiter.flight.guiding.guide import Target, checked_request, guide_request
 from loiter.flight.guiding.preparation import Assignment, FlightSetup, GuideRequest
 from loiter.flight.guiding.report import GuideReport, Stage

@@ -101,7 +101,7 @@ def guide(
     fence: GuidedFenceOptions = GuidedFenceOptions(),
     slotted: GuidedSlotOptions = GuidedSlotOptions(),
     log: Annotated[
-        File, Parameter(group=output, help="Write every step to a .csv or .parquet; loiter fly --replay plots it.")
+        File, Parameter(group=output, help="Write every step to a .csv; loiter fly --replay plots it.")
     ] = None,
     json: Annotated[
         Json,

@@ -73,7 +73,7 @@ Replay = Annotated[
     Parameter(
         group=simulation,
         metavar="LOG",
-        help="Instead of a simulation: the log of loiter guide, .csv or .parquet; --plot draws it.",
+        help="Instead of a simulation: the .csv log of loiter guide; --plot draws it.",
     ),
 ]
 

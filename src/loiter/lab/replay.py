@@ -12,8 +12,8 @@ from typing import Any, NamedTuple
 
 from loiter.cli.output import Output
 from loiter.cli.report import json_value
-from loiter.errors import InvalidArgument, MissingPackage
-from loiter.files.flight_log import check_columns, read_log
+from loiter.errors import InvalidArgument
+from loiter.files.flight_log import read_log
 
 
 class StageFlown(NamedTuple):
@@ -37,7 +37,7 @@ class Held(NamedTuple):
 
 def replay(log: Path, wanted: Output) -> None:
     """Show the time line of a log, and draw it to the pictures of `wanted`."""
-    columns = _read(log)
+    columns: Mapping[str, Sequence[Any]] = read_log(log)
     if not columns["time_s"]:
         raise InvalidArgument("replay", f"is {str(log)!r}: it has no steps")
     if wanted.pictures.plot:
@@ -52,18 +52,6 @@ def replay(log: Path, wanted: Output) -> None:
         "circle": None if held is None else held._asdict(),
     }
     wanted.show(document, *map(_line, stages), _summary(columns, held))
-
-
-def _read(path: Path) -> Mapping[str, Sequence[Any]]:
-    if path.suffix.lower() != ".parquet":
-        return read_log(path)
-    try:
-        from loiter.batch.tables.flight_logs import read_parquet
-    except ImportError as error:
-        raise MissingPackage.of_extra("Parquet needs", error.name, "cluster") from error
-    columns = read_parquet(path)
-    check_columns(path, list(columns))
-    return columns
 
 
 def _stages_flown(log: Mapping[str, Sequence[Any]]) -> Iterator[StageFlown]:

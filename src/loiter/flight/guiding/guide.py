@@ -71,7 +71,7 @@ def guide(
     SET_ATTITUDE_TARGET in GUIDED, PX4 by SET_POSITION_TARGET_LOCAL_NED in OFFBOARD; the autopilot holds altitude and
     airspeed. When it has held the circle for some seconds, it is handed over: it confirms that it holds the circle by
     its own guidance, and nothing more is sent. With `keep` the circle is flown until the generator is closed. With
-    `dry_run` nothing is commanded: reports show what would be. `log` is a file, .csv or .parquet, for every step.
+    `dry_run` nothing is commanded: reports show what would be. `log` is a .csv file for every step.
 
     With `resume` a lost link does not end the flight at once: nothing is sent, and if within a minute the vehicle is
     heard again, still in ArduPlane's GUIDED and on its way to the circle, guiding begins anew. PX4 has then left

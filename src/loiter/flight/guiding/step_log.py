@@ -1,7 +1,4 @@
-"""The log of a flight while it is flown: a CSV file, which becomes a Parquet file at the end if that is wanted.
-
-If the program is killed, the CSV file has every step until then: FILE itself, or FILE.csv beside a Parquet file.
-"""
+"""The log of a flight while it is flown: a CSV file, which has every step also if the program is killed."""
 
 from __future__ import annotations
 
@@ -10,8 +7,8 @@ from contextlib import contextmanager
 from math import nan
 from pathlib import Path
 
-from loiter.errors import InvalidArgument, MissingPackage
-from loiter.files.flight_log import TEXTS, LogRow, LogWriter
+from loiter.errors import InvalidArgument
+from loiter.files.flight_log import LogRow, LogWriter
 from loiter.flight.guiding.report import GuideReport
 from loiter.guidance.protocol import State
 from loiter.guidance.vehicle import VehicleEstimates
@@ -25,17 +22,12 @@ NO_STATE = State(*[nan] * len(State._fields))
 
 
 def check_log(path: Path | None) -> None:
-    """Raise `InvalidArgument` for a log that could not be written, `MissingPackage` without pyarrow for Parquet."""
+    """Raise `InvalidArgument` for a log that could not be written."""
     if path is None:
         return
-    if path.suffix.lower() not in (".csv", ".parquet"):
-        raise InvalidArgument("log", f"is {str(path)!r}: the file name must end in .csv or .parquet")
+    if path.suffix.lower() != ".csv":
+        raise InvalidArgument("log", f"is {str(path)!r}: the file name must end in .csv")
     check_writable("log", path)
-    if path.suffix.lower() == ".parquet":
-        try:
-            import loiter.batch.tables.flight_logs  # noqa: F401
-        except ImportError as error:
-            raise MissingPackage.of_extra("Parquet needs", error.name, "cluster") from error
 
 
 @contextmanager
@@ -44,18 +36,9 @@ def step_log(path: Path | None, orbit: Callable[[], Orbit]) -> Iterator[Record]:
     if path is None:
         yield lambda report: None
         return
-    parquet = path.suffix.lower() == ".parquet"
-    lines = path.with_name(path.name + ".csv") if parquet else path
-    try:
-        with lines.open("w", newline="", encoding="utf-8") as file:
-            writer = LogWriter(file)
-            yield lambda report: writer.write(log_row(report, orbit()))
-    finally:
-        if parquet:
-            from loiter.batch.tables.flight_logs import to_parquet
-
-            to_parquet(lines, path, TEXTS)
-            lines.unlink()
+    with path.open("w", newline="", encoding="utf-8") as file:
+        writer = LogWriter(file)
+        yield lambda report: writer.write(log_row(report, orbit()))
 
 
 def log_row(report: GuideReport, orbit: Orbit) -> LogRow:

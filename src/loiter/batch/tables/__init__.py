@@ -1,1 +1,0 @@
-"""Tables as files: the meaning of their columns, reading and writing CSV and Parquet."""
