@@ -71,7 +71,9 @@ def test_a_turn_may_be_named_wherever_one_is_asked_for(checked):
     ],
 )
 def test_another_word_is_an_error(checked, call, name):
-    said, status = checked("import loiter", "from loiter import Aircraft, Orbit", f"value = {call}")
+    said, status = checked(
+        "import loiter", "import loiter.tables", "from loiter import Aircraft, Orbit", f"value = {call}"
+    )
     assert status == 1
     assert f'Argument "turn" to "{name}" has incompatible type' in said[0]
 
@@ -81,7 +83,7 @@ def test_the_frame_of_a_plan_is_of_the_kind_of_its_argument(checked):
         "from typing import assert_type",
         "from loiter import tables",
         "class Table: ...",
-        "assert_type(batch.plan(Table(), turn='cw'), Table)",
+        "assert_type(tables.plan(Table(), turn='cw'), Table)",
     ) == (["Success: no issues found in 1 source file"], 0)
 
 
