@@ -1,31 +1,48 @@
-"""Clear entries beside a known one: `python -m fences.known --scenes 300`, in tests.
+"""Clear entries between circles beside a known one: `python -m fences.known --scenes 300`, in tests.
 
-A path of two to five pieces is drawn at random; its last one is an arc onto the circle. Zones are drawn about it: none
-is closer to the path or to the circle than the margin and 0.5 m, and the fastest entry enters one of them. So a clear
-entry exists, and the fastest one is no slower than the path. With `--wind` the scenes have wind.
+A path of two to four pieces is drawn at random that ends along the circle, from a start near it. Two to four zones,
+circles, lie by turns left and right of it, closer than 2 m, and block all candidates of the planner. So a clear entry
+exists, and the fastest one is no slower than the path. Of these scenes those are left in which paths at random, two
+pieces and the fastest entry, are not clear, or slower. With `--wind` the scenes have wind.
 """
 
 import argparse
-from math import cos, degrees, hypot, pi, radians, sin
+from math import cos, degrees, hypot, inf, pi, radians, sin
 from time import process_time
 from typing import NamedTuple
 
 import numpy as np
 
 from fences.sampling import clearance
-from fences.scenes import zone
-from loiter import Aircraft, Orbit, Pose, Turn, Wind, plan
-from loiter.errors import InvalidArgument
-from loiter.fences import Fence, PolygonZone, clear_entry
+from loiter import Aircraft, Orbit, Pose, Turn, Wind, candidates
+from loiter.fences import CircleZone, Fence, clear_entry
+from loiter.fences.airs import Pose2, SteadyWind, StillAir
+from loiter.fences.lattice import PathSearch
+from loiter.planning.problem import Problem
 
-# Metres between two samples of a path, and how much farther than the margin a path is from all zones, at least.
-STEP_M, CLEARANCE_M = 0.1, 0.5
+# Metres between two samples of a path.
+STEP_M = 0.1
 
-# How much later than the fastest entry a known path is at most, turn radii over airspeed.
-MOST_LATER = 1.5
+# The aircraft turns in 50 m; other sizes are as in tests/fences/test_laws.py.
+UAV = Aircraft(18.0, max_bank_deg=degrees(np.arctan2(18.0**2, 50.0 * 9.80665)))
+
+# Radii of the zones, and how far they are from the path and the circle, metres.
+ZONE_RADII_M, CLEARANCES_M = (15.0, 40.0), (0.05, 2.0)
+
+# How far starts are from the centre, metres.
+START_M = (100.0, 200.0)
+
+# How much later than the fastest entry a known path is at most, seconds.
+MOST_LATER_S = 5.0
+
+# Paths at random, in two rounds: so many, of pieces of up to so many turn radii, that are slower by this, seconds.
+SHOTS, SHOT, SHOT_LATER_S = (60, 440), 2.0, 1.0
+
+# So many times zones are placed about a path, before another one is drawn; and a zone is moved away.
+PLACINGS, MOVES = 20, 20
 
 # An entry that is later than the known one by this, seconds, is late.
-LATE_S = 0.05
+LATE_S = 0.1
 
 
 class Known(NamedTuple):
@@ -44,32 +61,54 @@ class Known(NamedTuple):
         """The time of the known path, seconds."""
         return sum(duration_s for _, duration_s in self.pieces)
 
+    @property
+    def most_m(self) -> float:
+        """How long random paths are at least, metres through the air."""
+        return (self.duration_s + SHOT_LATER_S) * self.aircraft.airspeed_m_s
+
 
 def known_scene(rng, *, windy=False):
+    """A scene in still air or in wind in which random paths are slower than the known one."""
+    while True:
+        scene = tight_scene(rng, windy)
+        if all(shortest_shot_m(rng, scene, n) > scene.most_m for n in SHOTS):
+            return scene
+
+
+def tight_scene(rng, windy):
     """A scene in still air or in wind."""
     while True:
-        aircraft = Aircraft(rng.uniform(12.0, 30.0), max_bank_deg=rng.uniform(25.0, 50.0))
-        speed_m_s = rng.uniform(0.03, 0.4) * aircraft.airspeed_m_s if windy else 0.0
-        wind, r = Wind(speed_m_s, rng.uniform(0.0, 360.0)), aircraft.turn_radius_m
-        radius_m = r * (1.0 + speed_m_s / aircraft.airspeed_m_s) ** 2 * rng.uniform(1.01, 2.5)
+        speed_m_s = rng.uniform(0.03, 0.4) * UAV.airspeed_m_s if windy else 0.0
+        wind = Wind(speed_m_s, rng.uniform(0.0, 360.0))
+        radius_m = UAV.turn_radius_m * (1.0 + speed_m_s / UAV.airspeed_m_s) ** 2 * rng.uniform(1.01, 2.5)
         orbit = Orbit(0.0, 0.0, radius_m, rng.choice([Turn.CW, Turn.CCW]))
-        pose, pieces = random_path(rng, orbit, aircraft, wind)
-        fastest, known_s = plan(pose, orbit, aircraft, wind), sum(duration_s for _, duration_s in pieces)
-        if not 1e-3 < known_s - fastest.duration_s < MOST_LATER * r / aircraft.airspeed_m_s:
+        pose, pieces = random_path(rng, orbit, UAV, wind)
+        if not START_M[0] < hypot(pose.east_m, pose.north_m) < START_M[1]:
             continue
-        places = flown(pose, pieces, aircraft, wind)
-        fence_margin_m = float(rng.choice([0.0, rng.uniform(0.0, 8.0)]))
-        free = np.append(places, radius_m * np.exp(1j * np.linspace(0.0, 2.0 * pi, 1000)))
-        zones = zones_about(rng, fastest, free, r, fence_margin_m + CLEARANCE_M)
-        if not zones:
+        entries, known_s = candidates(pose, orbit, UAV, wind), sum(duration_s for _, duration_s in pieces)
+        if not LATE_S < known_s - entries[0].duration_s < MOST_LATER_S:
             continue
-        fence = Fence(zones)
-        try:
-            if fence.check(fastest, fence_margin_m).clear:
-                continue
-        except InvalidArgument:
-            continue
-        return Known(pose, orbit, aircraft, wind, fence, fence_margin_m, pieces)
+        places = flown(pose, pieces, UAV, wind)
+        free = np.append(places, radius_m * np.exp(1j * np.linspace(0.0, 2.0 * pi, int(2.0 * pi * radius_m / STEP_M))))
+        for _ in range(PLACINGS):
+            zones = zones_beside(rng, places, free)
+            if zones and not any(Fence(zones).check(entry, 0.0).clear for entry in entries):
+                return Known(pose, orbit, UAV, wind, Fence(zones), 0.0, pieces)
+
+
+def shortest_shot_m(rng, scene, n):
+    """The length of the shortest clear one of n paths of two pieces at random and the fastest entry, metres, or inf."""
+    problem = Problem(scene.pose, scene.orbit, scene.aircraft, scene.wind)
+    air = StillAir(scene.fence, problem, 0.0, []) if problem.still else SteadyWind(scene.fence, problem, 0.0)
+    start = Pose2(scene.pose.east_m, scene.pose.north_m, radians(90.0 - scene.pose.heading_deg))
+    r = scene.aircraft.turn_radius_m
+    search, poses, flown_m = PathSearch(air, start, r), Pose2(*(np.full(n, value) for value in start)), np.zeros(n)
+    for _ in range(2):
+        control, length = rng.integers(-1, 2, n).astype(float), rng.uniform(0.0, SHOT * r, n)
+        clear, reached = search.one_piece(poses, control, length)
+        poses, flown_m = Pose2(*(values[clear] for values in reached)), (flown_m + length)[clear]
+        n = flown_m.size
+    return search.endings(poses, flown_m)[1].min() if n else inf
 
 
 def random_path(rng, orbit, aircraft, wind):
@@ -83,8 +122,8 @@ def random_path(rng, orbit, aircraft, wind):
     # The heading whose motion over the ground has that course.
     heading = float(np.angle(course)) + float(np.arcsin(across))
     place = orbit.radius_m * np.exp(1j * angle)
-    letters = ["LR"[rng.integers(2)]]
-    for _ in range(rng.integers(1, 5)):
+    letters = ["LSR"[rng.integers(3)]]
+    for _ in range(rng.integers(1, 4)):
         letters.append(rng.choice([letter for letter in "LSR" if letter != letters[-1]]))
     pieces = []
     for letter in letters:
@@ -122,55 +161,28 @@ def flown(pose, pieces, aircraft, wind, step_m=STEP_M):
     return np.concatenate(parts)
 
 
-def zones_about(rng, fastest, free, r, margin_m):
-    """Up to nine zones: two on the fastest entry, the others close beside the known path."""
-    samples = fastest.sample(max(fastest.duration_s / 40.0, 1e-3))
-    blocked = samples.east_m + 1j * samples.north_m
-    zones = []
-    for i in range(rng.integers(3, 10)):
-        try:
-            drawn = (
-                shape(rng, f"zone {i}", blocked[rng.integers(blocked.size)], r)
-                if i < 2
-                else beside(rng, i, free, r, margin_m)
-            )
-        except InvalidArgument:
-            continue
-        if clearance(drawn, free.real, free.imag).min() > margin_m + STEP_M:
-            zones.append(drawn)
-    return tuple(zones)
+def zones_beside(rng, places, free):
+    """Two to four zones along places, by turns left and right of them; none where one of them has no room."""
+    n, side = rng.integers(2, 5), rng.choice([1j, -1j])
+    k = ((np.arange(n) + rng.uniform(0.0, 1.0, n)) / n * (places.size - 1)).astype(int)
+    zones = [zone_beside(rng, f"zone {i}", places, k[i], side * (-1) ** i, free) for i in range(n)]
+    return () if None in zones else tuple(zones)
 
 
-def beside(rng, i, free, r, margin_m):
-    """A zone about a place beside a free one, moved away until it is as clear as drawn."""
-    k = rng.integers(free.size - 1)
-    along = free[k + 1] - free[k]
-    aside = rng.choice([1j, -1j]) * (along / abs(along) if along else 1.0)
-    state, away_m = rng.bit_generator.state, 0.0
-    clear_m = margin_m + STEP_M + (rng.exponential(0.1 * r) if rng.random() < 0.4 else 0.02)
-    for _ in range(8):
-        rng.bit_generator.state = state
-        drawn = shape(rng, f"zone {i}", free[k] + away_m * aside, r)
-        lacking_m = clear_m - clearance(drawn, free.real, free.imag).min()
+def zone_beside(rng, name, places, k, side, free):
+    """A circle beside place k, moved away until it is as clear of free ones as drawn; None where it never is."""
+    size_m, clear_m = rng.uniform(*ZONE_RADII_M), rng.uniform(*CLEARANCES_M)
+    along = places[k + 1] - places[k]
+    aside = side * (along / abs(along) if along else 1.0)
+    away_m = size_m + clear_m
+    for _ in range(MOVES):
+        middle = places[k] + away_m * aside
+        zone = CircleZone(name, float(middle.real), float(middle.imag), size_m)
+        lacking_m = clear_m - clearance(zone, free.real, free.imag).min()
         if lacking_m <= 0.01:
-            break
+            return zone
         away_m += lacking_m
-    return drawn
-
-
-def shape(rng, name, middle, r):
-    """A circle, a polygon or a thin polygon about a place."""
-    if rng.random() < 0.25:
-        return thin(rng, name, middle, r)
-    return zone(rng, name, middle.real, middle.imag, r * rng.uniform(0.2, 0.9), inclusion=False)
-
-
-def thin(rng, name, middle, r):
-    """A thin polygon of four corners."""
-    along = np.exp(2j * pi * rng.random())
-    length, width = r * rng.uniform(0.5, 3.0), r * rng.uniform(0.01, 0.1)
-    corners = [middle + along * complex(a * length, b * width) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
-    return PolygonZone(name, tuple((float(c.real), float(c.imag)) for c in corners))
+    return None
 
 
 class Row(NamedTuple):

@@ -52,8 +52,8 @@ TANGENT_STEPS = 5
 # turns are tighter in some directions than in others, so that a path bends about a zone without touching it.
 WIDER = (0.2, 0.5)
 
-# Where neither finds one as short, lattices of steps of so many turn radii are searched.
-LATTICE_STEPS = (0.25, 0.12, 0.06)
+# Then lattices of steps of so many turn radii are searched: the last pass between zones that leave others no pose.
+LATTICE_STEPS = (0.25, 0.12, 0.06, 0.03)
 
 # A path of a lattice that is shorter by less, metres, is the same.
 LEAST_GAIN_M = 0.01
@@ -216,29 +216,32 @@ class _Search:
     def fastest(self, known: Maneuver | None, enough_m: float) -> Maneuver | None:
         """The fastest of the clear maneuvers found, and of the one that is known, if any.
 
-        One that is shorter through the air than `enough_m` ends the search.
+        One that is shorter through the air than `enough_m` ends the search over contacts.
         """
         best = known
         for search in PASSES:
             for maneuver in self._maneuvers(search, inf if best is None else best.length_m):
                 best = self._faster(best, maneuver)
             if best is not None and best.length_m < enough_m:
-                return best
-        return self._without_contacts(best)
+                break
+        is_late = best is None or best.length_m >= enough_m
+        return self._without_contacts(best, SLACK * self._problem.aircraft.turn_radius_m if is_late else 0.0)
 
-    def _without_contacts(self, best: Maneuver | None) -> Maneuver | None:
-        """The fastest of the clear maneuvers from lattices, and of the one that is known, if any."""
-        r = self._problem.aircraft.turn_radius_m
-        search, path = PathSearch(self._air, self._start, r), None
-        most_m = inf if best is None else best.length_m + SLACK * r
+    def _without_contacts(self, best: Maneuver | None, slack_m: float) -> Maneuver | None:
+        """The fastest of the clear maneuvers from lattices, and of the one that is known, if any.
+
+        Paths of lattices that are longer than that by `slack_m` are shortened too.
+        """
+        search, least_m = PathSearch(self._air, self._start, self._problem.aircraft.turn_radius_m), inf
         for step in LATTICE_STEPS:
-            path = search.over_lattice(step, most_m if path is None else path.length_m) or path
-        if path is None or (best is not None and len(path.pieces) > MOST_PIECES):
-            return best
-        shorter = search.shortened(path) if len(path.pieces) <= MOST_PIECES else path
-        if best is not None and shorter.length_m > best.length_m - LEAST_GAIN_M:
-            return best
-        return self._faster(best, self._maneuver(shorter.pieces, shorter.way))
+            path = search.over_lattice(step, least_m if best is None else min(least_m, best.length_m + slack_m))
+            if path is None or (best is not None and len(path.pieces) > max(MOST_PIECES, len(best.segments))):
+                continue
+            least_m = path.length_m
+            shorter = search.shortened(path) if len(path.pieces) <= MOST_PIECES else path
+            if best is None or shorter.length_m < best.length_m - LEAST_GAIN_M:
+                best = self._faster(best, self._maneuver(shorter.pieces, shorter.way))
+        return best
 
     def _faster(self, best: Maneuver | None, maneuver: Maneuver) -> Maneuver | None:
         """A maneuver where it is faster than the best one, if any, and clear; otherwise the best one."""
