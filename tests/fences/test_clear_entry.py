@@ -3,6 +3,7 @@
 import sys
 from dataclasses import replace
 from math import atan2, degrees, hypot, inf, pi
+from typing import NamedTuple
 
 import numpy as np
 import pytest
@@ -199,18 +200,59 @@ def test_half_a_turn_is_a_bound():
     assert found.least_s * 18.0 > 500.0 + pi * UAV.turn_radius_m / 2.0
 
 
-# Scenes of `python -m fences.known`, some of which have an entry that only a lattice finds, and whether in wind.
-KNOWN = [(0, False), (1, False), (0, True)]
+class Slalom(NamedTuple):
+    """A start, a circle, the wind, circles to stay out of with their radii, and the time of a known clear path."""
+
+    pose: Pose
+    orbit: Orbit
+    wind: Wind
+    circles: tuple[tuple[float, float, float], ...]
+    known_s: float
 
 
-def test_an_entry_between_circles_that_no_turn_touches_in_passing():
-    """Straight, left and right by 0.5 m past each of three circles, in wind: contacts find 18.6 s, a lattice 6.8 s."""
-    places = ((104.408, 89.891), (108.099, 31.295), (59.348, -3.343))
-    fence = Fence(tuple(CircleZone(f"circle {k}", *place, 25.0) for k, place in enumerate(places)))
-    pose, orbit = Pose(151.726, 77.816, 240.355), Orbit(0.0, 0.0, 84.952, Turn.CW)
-    uav, wind = Aircraft(18.0, max_bank_deg=degrees(atan2(18.0**2, 50.0 * 9.80665))), Wind(5.231, 123.416)
+# Without lattices 5.3, 18.6 and 14.8 s are found. The first needs one though it is near the fastest entry, the last one
+# steps of 0.03 turn radii.
+SLALOMS = {
+    "a lattice is needed near the fastest entry too": Slalom(
+        Pose(121.3913, -7.5748, 208.5815),
+        Orbit(0.0, 0.0, 86.5663, Turn.CW),
+        Wind(0.0, 0.0),
+        (
+            (127.8765, -53.276, 35.4647),
+            (38.6887, 100.5308, 19.2931),
+            (89.6166, -51.0306, 15.4122),
+            (34.1309, -37.02, 35.3135),
+        ),
+        4.988,
+    ),
+    "straight, left and right, 0.5 m past each circle": Slalom(
+        Pose(151.726, 77.816, 240.355),
+        Orbit(0.0, 0.0, 84.952, Turn.CW),
+        Wind(5.231, 123.416),
+        ((104.408, 89.891, 25.0), (108.099, 31.295, 25.0), (59.348, -3.343, 25.0)),
+        7.277,
+    ),
+    "a lattice needs short steps": Slalom(
+        Pose(115.227, -19.938, 59.707),
+        Orbit(0.0, 0.0, 193.628, Turn.CCW),
+        Wind(5.332, 336.517),
+        ((140.039, -45.89, 25.681), (159.545, 11.076, 29.638), (221.763, 4.016, 26.873), (155.394, 21.385, 34.999)),
+        8.422,
+    ),
+}
+
+
+@pytest.mark.parametrize("name", SLALOMS)
+def test_an_entry_between_circles_that_no_turn_touches_in_passing(name):
+    pose, orbit, wind, circles, known_s = SLALOMS[name]
+    fence = Fence(tuple(CircleZone(f"circle {k}", *circle) for k, circle in enumerate(circles)))
+    uav = Aircraft(18.0, max_bank_deg=degrees(atan2(18.0**2, 50.0 * 9.80665)))
     found = clear_entry(fence, pose, orbit, uav, wind, 0.0)
-    assert 6.7 < found.maneuver.duration_s < 6.9
+    assert found.maneuver.duration_s < known_s + LATE_S
+
+
+# Scenes of `python -m fences.known`, and whether in wind: without lattices 14.2, 10.2 and 3.3 s later than known.
+KNOWN = [(17, False), (3, True), (6, True)]
 
 
 @pytest.mark.parametrize(("k", "windy"), KNOWN)

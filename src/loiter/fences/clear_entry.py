@@ -52,7 +52,9 @@ TANGENT_STEPS = 5
 # turns are tighter in some directions than in others, so that a path bends about a zone without touching it.
 WIDER = (0.2, 0.5)
 
-# Then lattices of steps of so many turn radii are searched: the last pass between zones that leave others no pose.
+# Unless that is less than `NEAR` turn radii longer than the fastest entry, lattices of steps of so many turn radii are
+# searched then: the last one passes between zones that leave the others no pose.
+NEAR = 0.05
 LATTICE_STEPS = (0.25, 0.12, 0.06, 0.03)
 
 # A path of a lattice that is shorter by less, metres, is the same.
@@ -188,8 +190,7 @@ def _fastest_clear(fence: Fence, problem: Problem, margin_m: float) -> ClearEntr
         return found._replace(blocking=blocking, least_s=inf)
     fastest_m_s = aircraft.airspeed_m_s + problem.wind.speed_m_s
     least_s = max(known[0].duration_s, least_length_m(fence, problem, margin_m) / fastest_m_s)
-    enough_m = known[0].length_m + LATE * aircraft.turn_radius_m
-    best = _Search(fence, problem, margin_m).fastest(found.maneuver, enough_m) if least_s < inf else None
+    best = _Search(fence, problem, margin_m).fastest(found.maneuver, known[0].length_m) if least_s < inf else None
     if best is None:
         return found._replace(searched=True, least_s=least_s)
     later_s = best.duration_s - known[0].duration_s
@@ -213,19 +214,21 @@ class _Search:
         c, s = heading_vector(problem.pose.heading_deg)
         self._start = Pose2(problem.pose.east_m, problem.pose.north_m, atan2(s, c))
 
-    def fastest(self, known: Maneuver | None, enough_m: float) -> Maneuver | None:
+    def fastest(self, known: Maneuver | None, least_m: float) -> Maneuver | None:
         """The fastest of the clear maneuvers found, and of the one that is known, if any.
 
-        One that is shorter through the air than `enough_m` ends the search over contacts.
+        No maneuver is shorter through the air than `least_m`, which decides how much is searched.
         """
-        best = known
+        best, r = known, self._problem.aircraft.turn_radius_m
         for search in PASSES:
             for maneuver in self._maneuvers(search, inf if best is None else best.length_m):
                 best = self._faster(best, maneuver)
-            if best is not None and best.length_m < enough_m:
+            if best is not None and best.length_m < least_m + LATE * r:
                 break
-        is_late = best is None or best.length_m >= enough_m
-        return self._without_contacts(best, SLACK * self._problem.aircraft.turn_radius_m if is_late else 0.0)
+        if best is not None and best.length_m < least_m + NEAR * r:
+            return best
+        is_late = best is None or best.length_m >= least_m + LATE * r
+        return self._without_contacts(best, SLACK * r if is_late else 0.0)
 
     def _without_contacts(self, best: Maneuver | None, slack_m: float) -> Maneuver | None:
         """The fastest of the clear maneuvers from lattices, and of the one that is known, if any.
