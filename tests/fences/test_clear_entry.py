@@ -190,6 +190,8 @@ def no_words():
 
 @pytest.mark.parametrize("wrong", WRONG)
 def test_searches_that_leave_something_out_are_refused(wrong, hard, monkeypatch):
+    """Without lattices, which would find an entry too."""
+    monkeypatch.setattr(clear_entry_module, "LATTICE_STEPS", ())
     monkeypatch.setattr(*WRONG[wrong])
     assert any(late_s > 5e-4 for late_s in later(hard, HARD))
 
@@ -283,7 +285,7 @@ WRONG_IN_WIND = {
 
 @pytest.mark.parametrize("wrong", WRONG_IN_WIND)
 def test_searches_in_wind_that_leave_something_out_are_refused(wrong, hard_in_wind, monkeypatch):
-    """Without the lattice, which would find an entry too."""
+    """Without lattices, which would find an entry too."""
     monkeypatch.setattr(clear_entry_module, "LATTICE_STEPS", ())
     monkeypatch.setattr(*WRONG_IN_WIND[wrong])
     assert any(late_s > 0.05 for late_s in later(hard_in_wind, HARD_IN_WIND))

@@ -4044,7 +4044,7 @@ return MissionItem(command, Frame.ABOVE_SEA, params, ...iter(place), altitude_m)
 }
 
 function _fastest_clear(fence, problem, margin_m) {
-let aircraft, best, blocking, enough_m, fastest_m_s, found, known, later_s, least_s, orbit;
+let aircraft, best, blocking, fastest_m_s, found, known, later_s, least_s, orbit;
 [aircraft, orbit] = iter([problem.aircraft, problem.orbit]);
 known = extremals(problem);
 found = first_clear(fence, known, margin_m);
@@ -4056,8 +4056,7 @@ return replace(found, { blocking: blocking, least_s: math.inf });
 }
 fastest_m_s = add(aircraft.airspeed_m_s, problem.wind.speed_m_s);
 least_s = max(item(known, 0).duration_s, div(arrays.no_length(fence, problem, margin_m), fastest_m_s));
-enough_m = add(item(known, 0).length_m, mul(LATE, aircraft.turn_radius_m));
-best = (lt(least_s, math.inf) ? _Search(fence, problem, margin_m).fastest(found.maneuver, enough_m) : null);
+best = (lt(least_s, math.inf) ? _Search(fence, problem, margin_m).fastest(found.maneuver, item(known, 0).length_m) : null);
 if ((best == null)) {
 return replace(found, { searched: true, least_s: least_s });
 }
@@ -4540,11 +4539,11 @@ function units_at(x, y, R) {
 let gap, is_lrl, scale, start, v;
 [start, scale] = iter([kernel.start_at(x, y, R, 0.0), scale_of(x, y, R)]);
 if ((lt(add(1.0, math.sqrt(3.0)), R) || gt(start.fold, mul(mul(NO_FOLD, scale), scale)))) {
-return Units(MISS, (le(R, WIDE) ? rounding_bound_LATE : LATE_BEYOND));
+return Units(MISS, (le(R, WIDE) ? LATE : LATE_BEYOND));
 }
 [gap, v] = iter(kernel.lrl_quadratic(start));
 is_lrl = ge(sub(mul(gap, gap), mul(3.0, v)), mul(mul(neg(OF_D), gap), gap));
-return (truth(is_lrl) ? Units(MISS_OF_LRL, LATE_OF_LRL) : Units(MISS, rounding_bound_LATE));
+return (truth(is_lrl) ? Units(MISS_OF_LRL, LATE_OF_LRL) : Units(MISS, LATE));
 }
 
 function scale_of(x, y, R) {
@@ -4865,37 +4864,40 @@ self._air = clear_entry__air(fence, problem, margin_m, self._curves);
 [c, s] = iter(heading_vector(problem.pose.heading_deg));
 self._start = Pose2(problem.pose.east_m, problem.pose.north_m, math.atan2(s, c));
 }
-fastest(known, enough_m) {
-let best, maneuver, search;
+fastest(known, least_m) {
+let best, is_late, maneuver, r, search;
 const self = this;
-best = known;
+[best, r] = iter([known, self._problem.aircraft.turn_radius_m]);
 for (search of iter(clear_entry_PASSES)) {
 for (maneuver of iter(self._maneuvers(search, ((best == null) ? math.inf : best.length_m)))) {
 best = self._faster(best, maneuver);
 }
-if (((best != null) && lt(best.length_m, enough_m))) {
+if (((best != null) && lt(best.length_m, add(least_m, mul(clear_entry_LATE, r))))) {
+break;
+}
+}
+if (((best != null) && lt(best.length_m, add(least_m, mul(clear_entry_NEAR, r))))) {
 return best;
 }
+is_late = ((best == null) || ge(best.length_m, add(least_m, mul(clear_entry_LATE, r))));
+return self._without_contacts(best, (truth(is_late) ? mul(SLACK, r) : 0.0));
 }
-return self._without_contacts(best);
-}
-_without_contacts(best) {
-let most_m, path, r, search, shorter, step;
+_without_contacts(best, slack_m) {
+let least_m, path, search, shorter, step;
 const self = this;
-r = self._problem.aircraft.turn_radius_m;
-[search, path] = iter([PathSearch(self._air, self._start, r), null]);
-most_m = ((best == null) ? math.inf : add(best.length_m, mul(SLACK, r)));
+[search, least_m] = iter([PathSearch(self._air, self._start, self._problem.aircraft.turn_radius_m), math.inf]);
 for (step of iter(LATTICE_STEPS)) {
-path = or(search.over_lattice(step, ((path == null) ? most_m : path.length_m)), () => path);
+path = search.over_lattice(step, ((best == null) ? least_m : min(least_m, add(best.length_m, slack_m))));
+if (((path == null) || ((best != null) && gt(len(path.pieces), max(MOST_PIECES, len(best.segments)))))) {
+continue;
 }
-if (((path == null) || ((best != null) && gt(len(path.pieces), MOST_PIECES)))) {
-return best;
-}
+least_m = path.length_m;
 shorter = (le(len(path.pieces), MOST_PIECES) ? search.shortened(path) : path);
-if (((best != null) && gt(shorter.length_m, sub(best.length_m, LEAST_GAIN_M)))) {
-return best;
+if (((best == null) || lt(shorter.length_m, sub(best.length_m, LEAST_GAIN_M)))) {
+best = self._faster(best, self._maneuver(shorter.pieces, shorter.way));
 }
-return self._faster(best, self._maneuver(shorter.pieces, shorter.way));
+}
+return best;
 }
 _faster(best, maneuver) {
 let faster;
@@ -7134,12 +7136,11 @@ const legs_MOST_TURNS = 255;
 const LARGEST_TURNS_RADIUS_M = 255.0;
 const FROM_EXIT = 1.0;
 const HEADING_REQUIRED = 1.0;
-const LATE = 1.0;
 const SAMPLES = 9;
 const NO_FOLD = pow(2.0, -150);
 const MISS = 256.0;
 const WIDE = pow(2.0, 44);
-const rounding_bound_LATE = 256.0;
+const LATE = 256.0;
 const LATE_BEYOND = 1024.0;
 const OF_D = pow(2.0, -39);
 const MISS_OF_LRL = 2048.0;
@@ -7161,8 +7162,10 @@ const CHORD_ERROR_M = 0.01;
 const WIND_GAP_M = mul(2.1, CHORD_ERROR_M);
 const WIDER = [0.2, 0.5];
 const clear_entry_PASSES = [1, 2];
+const clear_entry_LATE = 1.0;
+const clear_entry_NEAR = 0.05;
 const SLACK = 0.5;
-const LATTICE_STEPS = [0.25, 0.12, 0.06];
+const LATTICE_STEPS = [0.25, 0.12, 0.06, 0.03];
 const MOST_PIECES = 12;
 const LEAST_GAIN_M = 0.01;
 const MOST_CHAINS = 4;
