@@ -247,12 +247,17 @@ def test_a_ground_station_that_changes_the_altitude_of_arduplane():
     assert "another station has sent the vehicle to another altitude, 700 m" in outcome.end
 
 
-def test_a_ground_station_that_changes_the_radius_alone():
-    def widen(vehicle):
-        vehicle.hold_circle = vehicle.hold_circle[0], 120.0, vehicle.hold_circle[2]
+def widen(vehicle):
+    """A ground station changes the radius of the circle alone."""
+    vehicle.hold_circle = vehicle.hold_circle[0], 120.0, vehicle.hold_circle[2]
 
+
+def test_a_ground_station_that_changes_the_radius_alone():
     outcome = guided(GuidedPlane(events=[(JOINING_S, widen)]))
-    assert outcome.end.startswith("another station has sent the vehicle onto a circle of 120 m: guiding has stopped, ")
+    assert outcome.end == (
+        "another station has sent the vehicle onto a circle of 120 m: guiding has stopped, nothing more is sent, "
+        "and system 1 (ArduPilot) flies in GUIDED onto a circle of 120 m"
+    )
     assert len(outcome.vehicle.commands) == 1
 
 
@@ -267,6 +272,7 @@ def test_a_vehicle_that_obeys_another_station_is_left_to_it():
     assert outcome.end.startswith(
         "another station has commanded the vehicle to hold another circle: guiding has stopped"
     )
+    assert outcome.end.endswith("flies in GUIDED as the other station commands it")
     assert len(outcome.vehicle.commands) == 1
 
 
@@ -499,6 +505,7 @@ def test_guiding_is_resumed_after_a_short_loss(at_s):
         ({"resume": True}, 90.0, lambda v: None),
         ({"resume": True}, 10.0, lambda v: v.change_mode(5)),
         ({"resume": True}, 10.0, lambda v: v.loiter_here(GUIDED)),
+        ({"resume": True}, 10.0, widen),
     ],
 )
 def test_guiding_is_not_resumed_after_a_long_loss_or_when_another_commands(options, for_s, event):

@@ -483,7 +483,11 @@ class GuidedFlight:
         deadline, telemetry, target = lost_at + timeout_s, self._contact.telemetry, self._contact.own_target
         while telemetry.arrived("HEARTBEAT") < lost_at and monotonic() < deadline:
             self._contact.listen()
-        elsewhere = target.arrived > lost_at and target.difference(self._circle, self._setup.altitude_m)
+        # The radius of the circle shows in some reports only.
+        deadline = monotonic() + OBSERVE_S
+        while telemetry.arrived("HEARTBEAT") >= lost_at and monotonic() < deadline:
+            self._contact.listen()
+        elsewhere = target.arrived > lost_at and self._elsewhere
         return telemetry.arrived("HEARTBEAT") >= lost_at and self._modes.mode == GUIDED and not elsewhere
 
     def request_again(self) -> GuideRequest:
@@ -553,6 +557,8 @@ class GuidedFlight:
         elsewhere = self._observe_elsewhere()
         if elsewhere:
             return f"{contact.name} flies in {self._modes.name} {elsewhere}"
+        if contact.link.commanders:
+            return f"{contact.name} {verb} in {self._modes.name} as the other station commands it"
         if self._steered and self._modes.mode in (GUIDED, OFFBOARD):
             return loss_consequence(contact)
         if elsewhere is None and self._modes.mode == HOLD and self._steered:
@@ -583,7 +589,15 @@ class GuidedFlight:
                     began = oldest = now
         if is_offboard or target.arrived < oldest:
             return None
-        return target.difference(self._circle, self._setup.altitude_m)
+        return self._elsewhere
+
+    @property
+    def _elsewhere(self) -> str:
+        """Where the vehicle has reported that it flies by its own guidance, in words; "" on the circle."""
+        contact, target = self._contact, self._contact.own_target
+        # What PX4 reports beside its place is not the distance from a circle.
+        radius = "" if contact.flies_px4 else target.other_radius
+        return target.difference(self._circle, self._setup.altitude_m) or radius
 
     def _command_hold(self, *, measured: bool) -> bool:
         """Command the circle, and keep the vehicle steered until it has confirmed it; returns whether it has.
@@ -767,7 +781,7 @@ class GuidedFlight:
         if target.arrived < self._accepted_at + TARGET_CHANGE_S:
             target.forget_radius()
             return None
-        elsewhere = target.difference(self._circle, self._setup.altitude_m) or target.other_radius
+        elsewhere = self._elsewhere
         return StopReason(f"another station has sent the vehicle {elsewhere}", ours=False) if elsewhere else None
 
     def _take_report(self, now: float) -> GuideReport:
