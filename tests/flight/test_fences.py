@@ -1,5 +1,6 @@
 """The fence of a vehicle, read by the mission protocol."""
 
+from math import pi
 from typing import NamedTuple
 
 import numpy as np
@@ -8,16 +9,20 @@ from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
 from flight.flyer import FRAME, ORBIT, Airframe, GuidedPlane, guided, when
 from flight.vehicle import OLD, Vehicle, flying, item
-from loiter import Aircraft, Pose, plan
+from loiter import Aircraft, Orbit, Pose, Turn, plan
 from loiter.errors import LinkFailed
 from loiter.fences import PlacedCircle, PlacedFence, PlacedPolygon, PolygonZone
 from loiter.fences.clear_entry import fastest_clear
 from loiter.fences.model import signed_distance
 from loiter.flight import download, download_fence
+from loiter.flight.autopilots.own_guidance import Guidance
 from loiter.flight.guiding import preparation
-from loiter.flight.guiding.fall_back import FallBack
+from loiter.flight.guiding.fall_back import FallBack, OwnGuidance, own_way
 from loiter.flight.guiding.flight import GuidedFlight
+from loiter.flight.guiding.hand_over import KEPT_S
 from loiter.guidance.entry import fenced_entry
+from loiter.guidance.protocol import State
+from loiter.planning.compass import heading_vector
 
 CORNERS = ((47.0, 8.0), (47.01, 8.0), (47.01, 8.02))
 FENCE = [
@@ -215,6 +220,17 @@ def test_a_vehicle_whose_link_dies_keeps_clear_of_the_fence(slow, at_s):
     outcome = past_wall(events=[when(at_s, silent=True, muted=True)])
     assert "nothing was heard" in outcome.end
     assert outcome.vehicle.least_m > 0.0
+
+
+def test_the_own_way_is_that_of_arduplane():
+    """The `plane` of its simulator, whose link dies: it comes 14 m farther east than with a turn ratio of 1."""
+    east_m, north_m, heading_deg, airspeed = 243.0, 173.0, 71.0, 23.4
+    state = State(
+        0.0, east_m, north_m, heading_deg, 0.0, *(airspeed * x for x in heading_vector(heading_deg)), airspeed
+    )
+    own = OwnGuidance(Aircraft(airspeed, max_bank_deg=44.5), None, Guidance(2.0 * pi / 15.0, 0.75), KEPT_S)
+    way = own_way(state, Orbit(-58.0, -5.0, 70.0, Turn.CW), own)
+    assert max(way.east_m) == pytest.approx(408.0, abs=6.0)
 
 
 @pytest.mark.parametrize("at_s", [10.0, 14.0, 18.0, 22.0, 26.0])

@@ -18,6 +18,7 @@ from loiter.errors import LoiterError
 from loiter.fences import Fence
 from loiter.fences.model import Zone, signed_distance
 from loiter.flight.autopilots.own_guidance import DEFAULT_DAMPING, Guidance
+from loiter.flight.guiding.hand_over import SETTLING_S, turn_response
 from loiter.guidance.circle import Band, circle_offset
 from loiter.guidance.protocol import State
 from loiter.guidance.vehicle import PlanarPose, bank_at_rate, clip, constant_turn, rate_at_bank
@@ -48,13 +49,14 @@ BESIDE = 1.3
 class OwnGuidance(NamedTuple):
     """A vehicle that flies by its own guidance: as an aircraft, in a wind, with the guidance of its parameters.
 
-    `kept_s` is for how long it keeps its bank before, seconds.
+    `kept_s` is for how long it keeps its bank before, seconds, and `turn_ratio` that of the law.
     """
 
     aircraft: Aircraft
     wind: Wind | None
     guidance: Guidance | None
     kept_s: float = 0.0
+    turn_ratio: float = 1.0
 
 
 class OwnWay(NamedTuple):
@@ -73,7 +75,9 @@ def own_way(state: State, orbit: Orbit, own: OwnGuidance) -> OwnWay:
     V, bank_deg, side = aircraft.airspeed_m_s, state.bank_deg, sign_of(orbit.turn)
     here = PlanarPose(state.east_m, state.north_m, *heading_vector(state.heading_deg))
     away_m = abs(circle_offset(state, orbit).outside_m)
-    way, kept = OwnWay([], [], []), exp(-STEP_S / ROLL_S)
+    way, kept, settling = OwnWay([], [], []), exp(-STEP_S / ROLL_S), 1.0 - exp(-STEP_S / SETTLING_S)
+    ratio, share = turn_response(own.turn_ratio)
+    settled_rate = rate_at_bank(bank_deg, V)
     for k in range(round((own.kept_s + (away_m + ROUNDS * 2.0 * pi * orbit.radius_m) / V) / STEP_S)):
         velocity = V * here.c + air[0], V * here.s + air[1]
         now = State(k * STEP_S, here.x, here.y, heading_of(here.c, here.s), bank_deg, *velocity, V)
@@ -84,8 +88,11 @@ def own_way(state: State, orbit: Orbit, own: OwnGuidance) -> OwnWay:
         wanted_deg = clip(bank_at_rate(demand / V, V), limit_deg)
         if k * STEP_S >= own.kept_s:
             bank_deg = wanted_deg + kept * (bank_deg - wanted_deg)
+        rate = rate_at_bank(bank_deg, V)
+        settled_rate += settling * (rate - settled_rate)
+        turned = ratio * ((1.0 - share) * rate + share * settled_rate)
         # Angles are counted counter-clockwise: a rate to the right is negative.
-        here = constant_turn(here, V, -rate_at_bank(bank_deg, V), STEP_S, air)
+        here = constant_turn(here, V, -turned, STEP_S, air)
     return way
 
 

@@ -49,7 +49,7 @@ from loiter.guidance.estimation.turn_fits import bounded_turn_ratio
 from loiter.guidance.protocol import Command, Phase, State
 from loiter.guidance.vehicle import VehicleEstimates, bank_at_rate, clip
 from loiter.planning.maneuver import Maneuver
-from loiter.planning.model import Orbit, Turn, sign_of
+from loiter.planning.model import Orbit, Turn, sign_of, wind_from_velocity
 from loiter.planning.slot import Slot
 
 # Seconds for a command to be confirmed: the fall-back circle, PX4's offboard mode, the hand-over.
@@ -344,14 +344,23 @@ class GuidedFlight:
         The vehicle keeps its bank for some seconds before: the present one, or that given and for a circle beside it
         that of the circle.
         """
-        contact, state, p = self._contact, self._measure(), self._setup
-        fence, own = contact.fence, OwnGuidance(p.aircraft, p.wind, guidance_of(contact.parameters.known), kept_s)
+        fence, state, own = self._contact.fence, self._measure(), self._own_guidance(kept_s)
         assert fence is not None  # the caller has checked
-        beside = [*circles_beside(state, self.orbit, p.aircraft)]
+        beside = [*circles_beside(state, self.orbit, own.aircraft)]
         states = [state if bank_deg is None else state._replace(bank_deg=bank_deg)] * len(circles)
         turning = [state if bank_deg is None else state._replace(bank_deg=self._circle_bank_deg(c)) for c in beside]
         margin_m = checked_margin_m(self.orbit, self._request.margin_m)
         return fall_back(fence, margin_m, [*circles, *beside], [*states, *turning], own)
+
+    def _own_guidance(self, kept_s: float) -> OwnGuidance:
+        """The vehicle as it would fly by itself: as the law has identified it, once that flies it."""
+        p, guidance = self._setup, guidance_of(self._contact.parameters.known)
+        if not self._steered:
+            return OwnGuidance(p.aircraft, p.wind, guidance, kept_s)
+        estimates = self._law.estimates
+        aircraft = replace(p.aircraft, airspeed_m_s=estimates.airspeed_m_s)
+        wind = wind_from_velocity(estimates.wind_east_m_s, estimates.wind_north_m_s)
+        return OwnGuidance(aircraft, wind, guidance, kept_s, estimates.turn_ratio)
 
     def _circle_bank_deg(self, circle: Orbit) -> float:
         """The bank, degrees, that holds a circle in still air."""

@@ -53,6 +53,20 @@ KEPT_S = 3.0
 RECOVERY_S, LARGEST_CORRECTION = 2.0, 0.3
 
 
+class TurnResponse(NamedTuple):
+    """A turn rate over that of the bank, once it has settled, and the share of it that settles over `SETTLING_S`."""
+
+    settled_ratio: float
+    settling_share: float
+
+
+def turn_response(turn_ratio: float) -> TurnResponse:
+    """How ArduPlane turns whose turn ratio the law has identified; 1 where it has not."""
+    if turn_ratio < 1.0 - COORDINATED:
+        return TurnResponse(turn_ratio, 0.0)
+    return TurnResponse(SETTLED_RATIO, SETTLING_SHARE)
+
+
 class SentCircle(NamedTuple):
     """The circle to send: its centre and its radius, metres; `displaced_m` is how far its centre is from ours."""
 
@@ -153,9 +167,7 @@ def _acceleration_deficit(radius_m: float, estimates: VehicleEstimates) -> float
 def _first_harmonic(radius_m: float, guidance: Guidance, estimates: VehicleEstimates) -> complex:
     """The complex amplitude of the offset of ArduPlane's own circle in wind, metres, about the downwind point."""
     rate, change = _wind_demand(radius_m, estimates)
-    ratio, settling = estimates.turn_ratio, 0.0
-    if ratio >= 1.0 - COORDINATED:
-        ratio, settling = SETTLED_RATIO, SETTLING_SHARE
+    ratio, settling = turn_response(estimates.turn_ratio)
     turned = ratio * (1.0 - settling + settling / (1.0 + rate * SETTLING_S)) * _lateness(rate, estimates)
     return (1.0 - turned) * change / (turned * guidance.stiffness(rate) + rate * rate)
 
