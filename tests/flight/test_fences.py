@@ -1,6 +1,6 @@
 """The fence of a vehicle, read by the mission protocol."""
 
-from math import pi
+from math import hypot, pi
 from typing import NamedTuple
 
 import numpy as np
@@ -16,8 +16,8 @@ from loiter.fences.clear_entry import fastest_clear
 from loiter.fences.model import signed_distance
 from loiter.flight import download, download_fence
 from loiter.flight.autopilots.own_guidance import Guidance
-from loiter.flight.guiding import preparation
-from loiter.flight.guiding.fall_back import FallBack, OwnGuidance, own_way
+from loiter.flight.guiding import flight, preparation
+from loiter.flight.guiding.fall_back import FallBack, OwnGuidance, fall_back, own_way
 from loiter.flight.guiding.flight import GuidedFlight
 from loiter.flight.guiding.hand_over import KEPT_S
 from loiter.guidance.entry import fenced_entry
@@ -231,6 +231,26 @@ def test_the_own_way_is_that_of_arduplane():
     own = OwnGuidance(Aircraft(airspeed, max_bank_deg=44.5), None, Guidance(2.0 * pi / 15.0, 0.75), KEPT_S)
     way = own_way(state, Orbit(-58.0, -5.0, 70.0, Turn.CW), own)
     assert max(way.east_m) == pytest.approx(408.0, abs=6.0)
+
+
+def test_the_own_way_is_flown_in_the_wind_and_with_the_slip_that_the_law_has_identified(slow, monkeypatch):
+    """The wind begins in flight."""
+    seen = []
+    monkeypatch.setattr(flight, "fall_back", lambda *given: (seen.append(given[-1]), fall_back(*given))[1])
+
+    class Slipping(Tracked):
+        def set_up(self):
+            super().set_up()
+            self.airframe.turn_ratio = 0.75
+
+    def blow(vehicle):
+        vehicle.airframe.wind = 0.0, -5.0
+
+    slow(0.1)
+    past_wall(vehicle=Slipping, events=[(4.0, blow)], seconds=26.0)
+    east_m_s, north_m_s = seen[-1].wind.velocity_m_s
+    assert hypot(east_m_s, north_m_s + 5.0) < 1.0
+    assert seen[-1].turn_ratio == pytest.approx(0.75, abs=0.1)
 
 
 @pytest.mark.parametrize("at_s", [10.0, 14.0, 18.0, 22.0, 26.0])
