@@ -223,7 +223,7 @@ def test_a_vehicle_whose_link_dies_keeps_clear_of_the_fence(slow, at_s):
 
 
 def test_the_own_way_is_that_of_arduplane():
-    """The `plane` of its simulator, whose link dies: it comes 14 m farther east than with a turn ratio of 1."""
+    """The `plane` of its simulator, whose link dies: it comes 15 m farther east than with a turn ratio of 1."""
     east_m, north_m, heading_deg, airspeed = 243.0, 173.0, 71.0, 23.4
     state = State(
         0.0, east_m, north_m, heading_deg, 0.0, *(airspeed * x for x in heading_vector(heading_deg)), airspeed
