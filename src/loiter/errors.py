@@ -51,8 +51,8 @@ class NotConverged(LoiterError):
 class ImpossibleTime(LoiterError):
     """No path arrives at a place on the circle at exactly the time asked for.
 
-    `next_s` is the next time at which one does, seconds from the start, and `last_s` the last one before, nan where
-    there is none.
+    `next_s` is the next time at which one does, seconds from the start, inf where none is found, and `last_s` the last
+    one before, nan where there is none.
     """
 
     def __init__(self, bearing_deg: float, time_s: float, last_s: float, next_s: float) -> None:
@@ -62,10 +62,15 @@ class ImpossibleTime(LoiterError):
     def __str__(self) -> str:
         bearing_deg, time_s, last_s, next_s = self.args
         # Rounded into the times that are possible.
+        later = (
+            f"the next possible time is {ceil(next_s * 1e3) / 1e3:.10g} s"
+            if isfinite(next_s)
+            else "no later one is found"
+        )
         earlier = f"the last one before is {floor(last_s * 1e3) / 1e3:.10g} s" if isfinite(last_s) else "none is sooner"
         return (
             f"no path arrives at bearing {bearing_deg:g} deg of the circle exactly {time_s:.10g} s from the start: "
-            f"the next possible time is {ceil(next_s * 1e3) / 1e3:.10g} s, {earlier}"
+            f"{later}, {earlier}"
         )
 
 

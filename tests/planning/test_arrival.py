@@ -6,8 +6,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from kernel.test_known_paths import known_paths
 from loiter import Aircraft, Orbit, Pose, Turn, Wind, hold, plan, plan_at
+from loiter.certificate import certify_arrival
 from loiter.errors import ImpossibleTime, InvalidArgument, RadiusTooSmall
+from loiter.kernel.wind import elongation
+from loiter.kernel.wind.hold import hold_pose
 from planning.prescribed_times import compare
 
 UAV, POSE, ORBIT = Aircraft(18.0, max_bank_deg=35.0), Pose(-400.0, 120.0, 90.0), Orbit(0.0, 0.0, 120.0)
@@ -65,6 +69,42 @@ def test_the_time_of_the_fastest_entry_is_possible_where_it_joins(pose, wind):
     bearing_deg = math.degrees(math.atan2(free.join.east_m, free.join.north_m))
     m = plan_at(pose, ORBIT, UAV, wind, time_s=free.duration_s, bearing_deg=bearing_deg)
     assert m.duration_s == pytest.approx(free.duration_s, abs=1e-6)
+
+
+@pytest.mark.parametrize("beside", [0.0, 1e-16, 1e-14])
+def test_a_known_path_arrives_at_its_end_at_its_duration(beside):
+    for known in known_paths(5, 300, beside):
+        if known.time > 0.0:
+            # An aircraft with a turn radius of 1 m at 1 m/s.
+            p, uav = known.problem, Aircraft(1.0, min_turn_radius_m=1.0)
+            pose = Pose(p.x, p.y, 90.0 - math.degrees(math.atan2(p.s, p.c)))
+            wind = Wind(math.hypot(p.wx, p.wy), math.degrees(math.atan2(-p.wx, -p.wy)))
+            bearing_deg = bearing_of(known)
+            orbit = Orbit(0.0, 0.0, p.R, "cw" if p.side > 0 else "ccw")
+            m = plan_at(pose, orbit, uav, wind, time_s=known.time, bearing_deg=bearing_deg)
+            certificate = certify_arrival(m, time_s=known.time, bearing_deg=bearing_deg)
+            assert certificate.valid, (known, certificate.failed)
+
+
+def bearing_of(known):
+    """The bearing of the end of a known path from the centre of the circle, degrees."""
+    p = known.problem
+    px, py, _, _, _ = hold_pose(known.phase, p.side, p.R, p.wx, p.wy)
+    return math.degrees(math.atan2(px, py))
+
+
+def test_the_next_time_in_a_wind_nearly_as_fast_as_the_aircraft_takes_few_windows(monkeypatch):
+    """There the length less the time hardly changes for long; windows of 8 turn radii were searched one by one."""
+    searched = []
+    found = elongation.crossing_times
+    monkeypatch.setattr(elongation, "crossing_times", lambda *a: searched.append(a) or found(*a))
+    uav, wind = Aircraft(1.0, min_turn_radius_m=1.0), Wind(0.999, 90.0)
+    with pytest.raises(ImpossibleTime) as caught:
+        plan_at(Pose(4400.0, -3.0, 200.0), Orbit(0.0, 0.0, 4400.0, "cw"), uav, wind, time_s=1.0, bearing_deg=80.0)
+    assert len(searched) <= 40
+    time_s = caught.value.next_s + 1e-6
+    m = plan_at(Pose(4400.0, -3.0, 200.0), Orbit(0.0, 0.0, 4400.0, "cw"), uav, wind, time_s=time_s, bearing_deg=80.0)
+    assert m.duration_s == pytest.approx(time_s)
 
 
 def test_a_time_in_the_gap_has_possible_times_on_both_sides():

@@ -124,8 +124,8 @@ def _segments(problem: Problem, path: ThreeArcs) -> Iterator[Segment]:
     pieces = (float(path.first), path.t1), (path.curvature, path.t2), (float(path.last), path.t3)
     for k, t in pieces:
         if t > ROUNDING:
-            # A turn whose sagitta is less than rounding is straight.
-            straight = abs(k) * t * t < ROUNDING
+            # A turn whose sagitta and angle are less than rounding is straight.
+            straight = abs(k) * t * max(t, 1.0) < ROUNDING
             letter = "S" if straight else "L" if k > 0.0 else "R"
             radius_m = r if straight or abs(k) == 1.0 else r / abs(k)
             flown = segment(here, now, letter, t * r, problem.aircraft, problem.wind, radius_m)

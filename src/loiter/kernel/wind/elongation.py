@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 from loiter.kernel.angles import TWO_PI, angle, arc_rotation, length
 from loiter.kernel.rounding import ROUNDING
-from loiter.kernel.wind.moving_target import interception, time_within
+from loiter.kernel.wind.moving_target import interception, tangent, time_within
 from loiter.kernel.wind.paths import WindScene
 from loiter.kernel.wind.slots import Slot, SlotPose, excess_at, less_whole_turns
 
@@ -30,8 +30,9 @@ BESIDE = 1e-7
 # Lengths that differ by less than this share count as one.
 SAME_LENGTH = 1e-9
 
-# The span of times in which crossings are sought at once, and the most of them that are tried.
-WINDOW, MOST_WINDOWS = 8.0, 10_000
+# The span of times in which crossings are sought at once, and the most of them that are tried: some 25 are needed in a
+# wind of 0.9999 of the airspeed, for times of up to 10^6.
+WINDOW, MOST_WINDOWS = 8.0, 200
 
 OUTER_CONTROLS = ((1, 1), (-1, -1), (1, -1), (-1, 1))
 
@@ -237,7 +238,74 @@ def path_of_length(ends: Ends, wanted: float, length_tolerance: float) -> ThreeA
             if abs(path.length - rest) <= SAME_LENGTH * (1.0 + wanted):
                 path = with_length(path, ends, rest)
                 found.append(path._replace(t1=path.t1 + TWO_PI * turns))
-    return min(found, key=lambda path: path.turning, default=None)
+    # Between opposite circles that nearly touch a rounding of the angle may move the end much further.
+    exact = [path for path in found if is_exact(path, ends, wanted, length_tolerance)]
+    if not exact:
+        at_edge = paths_at_edge(ends, wanted)
+        exact = [path for path in at_edge if is_exact(path, ends, wanted, length_tolerance)]
+    return min(exact or found, key=lambda path: path.turning, default=None)
+
+
+def is_exact(path: ThreeArcs, ends: Ends, wanted: float, length_tolerance: float) -> bool:
+    """Whether a path ends at the pose and has a length, to about half of what `certify_arrival` allows."""
+    rounded = ROUNDING * (1.0 + abs(ends.x) + abs(ends.y) + wanted)
+    in_time = abs(path.length - wanted) <= 0.5 * ROUNDING * (1.0 + wanted)
+    return (
+        in_time
+        and abs(path.curvature) <= 1.0 + 0.5 * ROUNDING
+        and miss_of(path, ends) <= 2.0 * max(length_tolerance, rounded)
+    )
+
+
+def miss_of(path: ThreeArcs, ends: Ends) -> float:
+    """How far a path ends from the pose: the greater of the distances of the places and of the headings."""
+    x, y, c, s = 0.0, 0.0, ends.c0, ends.s0
+    for k, t in ((float(path.first), path.t1), (path.curvature, path.t2), (float(path.last), path.t3)):
+        half = 0.5 * k * t
+        chord = t * sin(half) / half if half != 0.0 else t
+        c, s = c * cos(half) - s * sin(half), s * cos(half) + c * sin(half)
+        x, y = x + chord * c, y + chord * s
+        c, s = c * cos(half) - s * sin(half), s * cos(half) + c * sin(half)
+    return max(length(x - ends.x, y - ends.y), length(c - ends.c, s - ends.s))
+
+
+def paths_at_edge(ends: Ends, wanted: float) -> Iterator[ThreeArcs]:
+    """The paths of a length, and with the heading at their end, that may be at the edge of what is reachable.
+
+    A pose that is beyond the edge by rounding has a path in no family, as a first or last arc falls short of zero, or
+    the outer circles overlap, or are too far apart: what is left are two pieces, or three arcs of 1. Only those count
+    that end at the pose.
+    """
+    turned = atan2(ends.c0 * ends.s - ends.s0 * ends.c, ends.c0 * ends.c + ends.s0 * ends.s)
+    for first in (1, -1):
+        arc = first * turned
+        yield from arc_and_straight(ends, wanted, first, arc % TWO_PI)
+        for last in within(0.5 * (wanted - arc), pi, wanted):
+            yield ThreeArcs(first, 0.0, -first, wanted - last, 0.0, last)
+        for middle in within(0.5 * (wanted - arc), pi, wanted):
+            dx, dy = ends.x - first * (ends.s - ends.s0), ends.y + first * (ends.c - ends.c0)
+            azimuth = atan2(ends.c0 * dy - ends.s0 * dx, ends.c0 * dx + ends.s0 * dy)
+            for t1 in within(first * azimuth + 0.5 * middle, TWO_PI, wanted - middle):
+                yield ThreeArcs(first, -float(first), first, t1, middle, wanted - middle - t1)
+
+
+def arc_and_straight(ends: Ends, wanted: float, first: int, arc: float) -> Iterator[ThreeArcs]:
+    """The arc and the straight piece of a length, in either order; `arc` is that without whole turns."""
+    for c, s, arc_is_first in ((ends.c, ends.s, True), (ends.c0, ends.s0, False)):
+        # The arc is from the start to (s - s0, c0 - c), or the other way round.
+        dx, dy = ends.x - first * (ends.s - ends.s0), ends.y + first * (ends.c - ends.c0)
+        turns = floor((wanted - arc - dx * c - dy * s) / TWO_PI + 0.5)
+        t = max(0.0, min(arc + TWO_PI * turns, wanted))
+        if arc_is_first:
+            yield ThreeArcs(first, 0.0, first, t, wanted - t, 0.0)
+        else:
+            yield ThreeArcs(first, 0.0, first, 0.0, wanted - t, t)
+
+
+def within(angle_at: float, period: float, most: float) -> list[float]:
+    """The angles a period apart in the first turn, none beyond 0 or `most`: those beyond by less count as these."""
+    least = angle_at - period * floor(angle_at / period)
+    return [max(0.0, min(least + period * i, most)) for i in range(-1, 1 + int(TWO_PI / period + 0.5))]
 
 
 def path_within(stretch: Stretch, wanted: float, length_tolerance: float) -> ThreeArcs:
@@ -271,8 +339,8 @@ def with_length(path: ThreeArcs, ends: Ends, wanted: float) -> ThreeArcs:
     missing = less_whole_turns(turned - first * t1 - k * t2 - last * t3)
     # Half of what `certify_arrival` allows: conversions to seconds and back, and sums, round too.
     tolerance, middle = 0.5 * ROUNDING, wanted - t1 - t3
-    is_exact = abs(path.length - wanted) <= tolerance * (1.0 + wanted) and abs(missing) <= tolerance
-    if is_exact or middle <= 0.0:
+    exact = abs(path.length - wanted) <= tolerance * (1.0 + wanted) and abs(missing) <= tolerance
+    if exact or middle <= 0.0:
         return path
     return path._replace(curvature=max(-1.0, min((k * t2 + missing) / middle, 1.0)), t2=middle)
 
@@ -295,7 +363,7 @@ def is_in_time(arrival: Arrival, time: float) -> bool:
 
 
 def next_time(arrival: Arrival, time: float) -> float:
-    """The first time after an impossible one at which the pose can be reached.
+    """The first time after an impossible one at which the pose can be reached; inf where none is found.
 
     Between two times at which a word has exactly that length, either all or none are possible.
     """
@@ -305,7 +373,9 @@ def next_time(arrival: Arrival, time: float) -> float:
         for before, after in pairwise(crossings):
             if is_in_time(arrival, 0.5 * (before + after)):
                 return before
-        begin += WINDOW
+        begin, ahead = begin + WINDOW, WINDOW
+        while ahead < inf and has_no_crossing(arrival, begin, begin + ahead):
+            begin, ahead = begin + ahead, 2.0 * ahead
     return inf
 
 
@@ -313,14 +383,39 @@ def last_time(arrival: Arrival, time: float) -> float:
     """The last time before an impossible one at which the pose can be reached; nan for none."""
     least = interception(arrival.ends.x, arrival.ends.y, arrival.wx, arrival.wy)
     end = time
-    while end > least:
+    for _ in range(MOST_WINDOWS):
+        if end <= least:
+            break
         begin = max(end - WINDOW, 0.0)
         crossings = [begin, *crossing_times(arrival, begin, end), end]
         for after, before in pairwise(reversed(crossings)):
             if is_in_time(arrival, 0.5 * (before + after)):
                 return after
-        end = begin
+        end, back = begin, WINDOW
+        while end - back > least and has_no_crossing(arrival, end - back, end):
+            end, back = end - back, 2.0 * back
     return nan
+
+
+def has_no_crossing(arrival: Arrival, begin: float, end: float) -> bool:
+    """Whether it is certain that no word has exactly that length, and LSR and RSL neither begin nor end, in between.
+
+    In wind that is nearly as fast as the aircraft the length less the time of a word hardly changes for long. It is a
+    convex function of the time (`falls_at`): within an interval it falls fastest where that begins.
+    """
+    ends, wx, wy = arrival
+    for first, last in OUTER_CONTROLS:
+        dx, dy = ends.x - last * ends.s + first * ends.s0, ends.y + last * ends.c - first * ends.c0
+        enter, leave = time_within(dx, dy, wx, wy, 4.0 if first == last else 2.0)
+        # Three arcs exist within four radii, LSR and RSL beyond two: next to these nothing is certain.
+        if enter <= end and begin <= leave and (first == last or not enter < begin <= end < leave):
+            return False
+        is_there = first == last or end < enter or leave < begin
+        fall = falls_at(arrival, first, last, begin) * (end - begin) if is_there else 0.0
+        # Whole turns more are another root.
+        if is_there and fall >= excess_of(arrival, first, last, begin) % TWO_PI:
+            return False
+    return True
 
 
 def possible_times(arrival: Arrival, begin: float, end: float) -> list[tuple[float, float]]:
@@ -350,12 +445,9 @@ def crossing_times(arrival: Arrival, begin: float, end: float) -> list[float]:
 def straight_crossings(arrival: Arrival, first: int, last: int, begin: float, end: float) -> list[float]:
     """Those of the word with these outer controls and a straight piece, whose length less the time falls."""
     ends, wx, wy = arrival
-    scene = WindScene(0.0, 0.0, ends.c0, ends.s0, 1.0, wx, wy, 0.0)
-    slot = Slot(1, 0.0)
 
     def excess(time: float) -> float:
-        x, y = ends.x - wx * time, ends.y - wy * time
-        return excess_at(first, last, SlotPose(time, time, x, y, ends.c, ends.s, 1.0, 0.0, 0.0), slot, scene).value
+        return excess_of(arrival, first, last, time)
 
     within = [begin, end]
     if first != last:
@@ -372,6 +464,26 @@ def straight_crossings(arrival: Arrival, first: int, last: int, begin: float, en
             if values[i] >= 0.0 > values[i + 1] > values[i] - pi:
                 found.append(root_between(excess, times[i], times[i + 1]))
     return found
+
+
+def excess_of(arrival: Arrival, first: int, last: int, time: float) -> float:
+    """Length less time, less whole turns, of the word with these outer controls and a straight piece."""
+    ends, wx, wy = arrival
+    scene = WindScene(0.0, 0.0, ends.c0, ends.s0, 1.0, wx, wy, 0.0)
+    x, y = ends.x - wx * time, ends.y - wy * time
+    pose = SlotPose(time, time, x, y, ends.c, ends.s, 1.0, 0.0, 0.0)
+    return excess_at(first, last, pose, Slot(1, 0.0), scene).value
+
+
+def falls_at(arrival: Arrival, first: int, last: int, time: float) -> float:
+    """How fast it falls: 1 + w . q, where q is the direction of the straight piece, which turns towards -w."""
+    ends, wx, wy = arrival.at(time), arrival.wx, arrival.wy
+    dx, dy = ends.x - last * ends.s + first * ends.s0, ends.y + last * ends.c - first * ends.c0
+    if first == last:
+        straight = length(dx, dy)
+        return 1.0 + (wx * dx + wy * dy) / straight if straight > 0.0 else 2.0
+    _, q1, q2 = tangent(first, dx, dy)
+    return 1.0 + wx * q1 + wy * q2
 
 
 def apart_at(arrival: Arrival, first: int, last: int, time: float) -> float:
