@@ -12,7 +12,7 @@ from fences.brute import blocked_scene, compare
 from fences.known import LATE_S, row
 from fences.sampling import clearance, path
 from loiter import Aircraft, Orbit, Pose, Turn, Wind, candidates, plan
-from loiter.errors import InvalidArgument
+from loiter.errors import InvalidArgument, OutOfRange
 from loiter.fences import CircleZone, Fence, PolygonZone, airs, clear_entry
 
 clear_entry_module = sys.modules["loiter.fences.clear_entry"]
@@ -30,6 +30,30 @@ def test_brute_force_finds_nothing_faster():
         assert brute is None or row.brute_s >= row.answer_s, f"scene {k}: {brute}"
         found += row.answer_s < inf
     assert found >= 1
+
+
+def test_a_turn_radius_with_too_many_chords_is_refused():
+    """In wind a turn of 10^12 m has 22 million chords: the search ended in a MemoryError."""
+    r = 1e12
+    mast, wind = Fence((CircleZone("mast", -6.0 * r, r, r),)), Wind(3.0, 250.0)
+    with pytest.raises(
+        OutOfRange, match=r"^the turn radius of 1e\+12 m is too large .* it must be at most 2\.026e\+07 m$"
+    ):
+        clear_entry(mast, Pose(-10.0 * r, r, 90.0), Orbit(0.0, 0.0, 4.0 * r), Aircraft(18.0, min_turn_radius_m=r), wind)
+
+
+def test_chords_are_checked_in_portions(monkeypatch):
+    mast = Fence((CircleZone("mast", -300.0, -20.0, 60.0),))
+    problem = POSE, ORBIT, UAV, Wind(4.0, 250.0)
+    whole, sizes, clear_chords = clear_entry(mast, *problem, margin_m=5.0), [], airs._clear_chords
+    assert whole.searched
+    monkeypatch.setattr(airs, "MOST_AT_ONCE", 500)
+    monkeypatch.setattr(
+        airs, "_clear_chords", lambda f, ends, m: sizes.append(ends[0].size) or clear_chords(f, ends, m)
+    )
+    assert clear_entry(mast, *problem, margin_m=5.0) == whole
+    # And those of one more turn.
+    assert 500 <= max(sizes) <= 500 + 22.3 * UAV.turn_radius_m**0.5
 
 
 def test_a_search_follows_where_there_is_one_candidate_alone():

@@ -30,6 +30,16 @@ def bound_s(maneuver, fence, margin_m, most_s):
     return entry_bound.least_length(fence, problem, margin_m, air, most_s / unit_s) * unit_s
 
 
+def test_parts_of_far_apart_numbers_are_bounded(scenes):
+    """A circle a million kilometres away had 4.4 million times of arrival for each part of a curve."""
+    maneuver, fence, margin_m = scenes[19, True]
+    problem = Problem(maneuver.start, maneuver.orbit, maneuver.aircraft, maneuver.wind)
+    air = SteadyWind(fence, problem, margin_m)
+    parts = entry_bound._Search(fence, problem, margin_m, air, 2e7).first_parts()
+    assert parts.time.size <= 60 * entry_bound.MOST_PARTS
+    assert entry_bound._Search(fence, problem, margin_m, air, 400.0).first_parts().half_time[0] <= 2.0
+
+
 def times(k, windy):
     return (WINDY if windy else STILL)[k]
 

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from loiter.arrays import min_time, min_time_in_wind
 from loiter.compiled import solver, ufuncs
+from loiter.errors import OutOfRange
 from loiter.fences.contacts import Contacts, Curve
 from loiter.fences.distances import Arcs, arc_to_edge, arc_to_point, chord_to_edge, chord_to_point
 from loiter.fences.fence import Fence
@@ -33,6 +34,10 @@ from loiter.planning.problem import Problem
 
 # How far a chord may be from its part of a trochoid, metres: clear paths in wind are farther from a zone by this.
 CHORD_ERROR_M = 0.01
+
+# A whole turn has at most so many chords, that is a radius of 20,000 km. So many chords, and those of one more arc, are
+# checked at once.
+MOST_IN_TURN, MOST_AT_ONCE = 100_000, 1_000_000
 
 # How much farther than the margin a path passes what it touches: enough for it to be called clear. In wind its chords
 # may be nearer to a zone about which it bends by the error of a chord, and must be farther than the margin by that.
@@ -182,12 +187,22 @@ def _clear_chords(fence: Fence, ends: list[Any], margin_m: float) -> NDArray[boo
 
 
 class SteadyWind:
-    """Wind: the words of docs/wind.md, section 4, and trochoids as chords with a bound."""
+    """Wind: the words of docs/wind.md, section 4, and trochoids as chords with a bound.
+
+    Raises `OutOfRange` for a turn radius with too many chords.
+    """
 
     def __init__(self, fence: Fence, problem: Problem, margin_m: float) -> None:
         self._fence, self._problem, self._margin_m = fence, problem, margin_m
         self._radius_m = problem.aircraft.turn_radius_m
+        self._step_m = (8.0 * CHORD_ERROR_M * self._radius_m) ** 0.5
         self._wx, self._wy = problem.relative_wind
+        largest_m = 8.0 * CHORD_ERROR_M * (MOST_IN_TURN / tau) ** 2
+        if self._radius_m > largest_m:
+            raise OutOfRange(
+                f"the turn radius of {self._radius_m:.4g} m is too large for a search for clear entries in wind: it "
+                f"must be at most {largest_m:.4g} m"
+            )
 
     def headings(self, contacts: Contacts) -> NDArray[float64]:
         """The headings whose motion over the ground has the directions of the contacts."""
@@ -243,22 +258,28 @@ class SteadyWind:
         clear = np.ones(n, bool)
         wind_x, wind_y = self._wx, self._wy
         x, y, heading = (np.zeros(n) + value for value in start)
-        step = (8.0 * CHORD_ERROR_M * r) ** 0.5
         for k in range(3):
             u, length = words.control[:, k], words.length[:, k]
-            tried = (clear & (length > 0.0)).nonzero()[0]
-            counts = np.where(u[tried] == 0.0, 1, np.ceil(length[tried] / step)).astype(np.intp)
-            i = np.repeat(tried, counts)
-            j = np.arange(i.size) - np.repeat(np.cumsum(counts) - counts, counts)
-            width = length[i] / np.repeat(counts, counts)
-            ends: list[Any] = []
-            for flown in (j * width, (j + 1) * width):
-                ends += _flown(x[i], y[i], heading[i], u[i], flown, r, wind_x, wind_y)
-            good = _clear_chords(self._fence, ends, self._margin_m + CHORD_ERROR_M)
-            np.logical_and.at(clear, i, good)
+            chords = np.where(u == 0.0, 1, np.ceil(length / self._step_m))
+            for tried in _portions((clear & (length > 0.0)).nonzero()[0], chords):
+                counts = chords[tried].astype(np.intp)
+                i = np.repeat(tried, counts)
+                j = np.arange(i.size) - np.repeat(np.cumsum(counts) - counts, counts)
+                width = length[i] / np.repeat(counts, counts)
+                ends: list[Any] = []
+                for flown in (j * width, (j + 1) * width):
+                    ends += _flown(x[i], y[i], heading[i], u[i], flown, r, wind_x, wind_y)
+                good = _clear_chords(self._fence, ends, self._margin_m + CHORD_ERROR_M)
+                np.logical_and.at(clear, i, good)
             x, y = _flown(x, y, heading, u, length, r, wind_x, wind_y)
             heading = heading + u * length / r
         return clear
+
+
+def _portions(tried: Any, chords: Any) -> list[Any]:
+    """Indices of pieces, in portions of at most `MOST_AT_ONCE` chords and those of a piece."""
+    portion = np.floor(np.cumsum(chords[tried]) / MOST_AT_ONCE)
+    return [tried[portion == k] for k in sorted(set(portion.tolist()))]
 
 
 def _optima(x: Any, y: Any, radius: float, side: int) -> tuple[Any, ...]:

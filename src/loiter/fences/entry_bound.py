@@ -27,8 +27,9 @@ from loiter.planning.problem import Problem
 # So many parts are divided at a time, so often at most; the search ends at a part that is shorter than this.
 BATCH, MOST_ROUNDS, LEAST_WIDTH = 256, 40, 1e-4
 
-# In wind the search begins with times of arrival in steps of this.
-TIME_STEP = 4.0
+# In wind the search begins with times of arrival in steps of this, or in longer ones, so that there are no more than so
+# many parts of curves and times.
+TIME_STEP, MOST_PARTS = 4.0, 100_000
 
 # Rounding, of lengths and of places.
 ROUNDING = 1e-9
@@ -107,7 +108,7 @@ class _Search:
             n = curve.steps(self._r, 1)
             rows += [(i, (k + 0.5) / n, 0.5 / n, way) for k in range(n) for way in curve.ways]
         curve, share, half, way = np.array(rows).T
-        steps = ceil(self._most / TIME_STEP) if self._drift > 0.0 else 1
+        steps = min(ceil(self._most / TIME_STEP), MOST_PARTS // len(rows) + 1) if self._drift > 0.0 else 1
         half_time = 0.5 * self._most / steps if self._drift > 0.0 else 0.0
         row, step, kind, mirrored, *long = np.indices((len(rows), steps, len(KINDS), 2, 2, 2)).reshape(6, -1)
         words = Words._make([kind, 1.0 - 2.0 * mirrored, *long])
