@@ -34,6 +34,16 @@ def problems(still=False):
     return st.builds(problem, places, places, angles, st.floats(0.01, 4.0), sides, st.floats(0.0, 0.6), angles, angles)
 
 
+def test_a_search_that_gives_up_ends_all(monkeypatch):
+    """In a wind nearly as fast as the aircraft each of eight words took all its steps, for seconds."""
+    taken, pose = [], slots.slot_pose
+    monkeypatch.setattr(slots, "slot_pose", lambda *a: taken.append(a) or pose(*a))
+    monkeypatch.setattr(slots, "MOST_STEPS", 300)
+    problem = WindProblem(1e5, 3.0, 1.0, 0.0, 3000.0, 1, 0.999, 0.0, 0.0)
+    assert slots.first_in_slot(problem, 1.0).status == Status.NOT_CONVERGED
+    assert len(taken) <= 300 + slots.APPROACHES + 10
+
+
 @pytest.mark.parametrize("windy", [False, True])
 def test_an_arrival_is_that_of_an_independent_method(windy):
     scenes = random_scenes(np.random.default_rng(7), 12, windy)

@@ -38,6 +38,10 @@ from loiter.kernel.words import code, encode
 # Steps after which the search for one word gives up: a circle of 10,000 turn radii takes fewer.
 MOST_STEPS = 100_000
 
+# What a search for a word with a straight piece gives up with before anything is found: it is earlier than all others,
+# so that these end too.
+GAVE_UP = NO_PATH._replace(time=-inf)
+
 # The ground speed changes by no more than a factor exp(GROWTH) within a step.
 GROWTH = 0.5
 
@@ -293,7 +297,7 @@ def first_with_straight(
             if found.path.time < inf:
                 return found
         pose, excess = ahead, excess_ahead
-    return none
+    return WindCandidate(0.0, slot.side, GAVE_UP if until == inf else NO_PATH)
 
 
 def arrival_at_root(
@@ -498,6 +502,6 @@ def first_in_slot(problem: WindProblem, phase: float) -> WindEntry:
     if miss <= 3.0 * scene.arc_tolerance:
         return entry_at(nothing, phase, miss, scene)
     found = first_arrival(slot, scene)
-    if found.path.time == inf:
+    if abs(found.path.time) == inf:
         return no_entry(code(Status.NOT_CONVERGED))
     return arrival_of(found, scene)
