@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 4d064bac20ceb565dd7db1cfecea4e30148c38bc275871d2feaf6ca04bb9348a
+ * SHA-256 of the source: f01ba3f00e62a87c45588a9e24ca83a795c8aad04ba22b153a320ddf602867de
  */
 #ifndef LOITER_KERNEL_H
 #define LOITER_KERNEL_H
@@ -435,6 +435,11 @@ static const WindCandidate NO_CANDIDATE = {0.0, 0, {INFINITY, 0, 0.0, 0.0, 0.0, 
  * V >= 1.
  */
 #define EDGE 1000.0
+
+/* What a search for a word with a straight piece gives up with before anything is found: it is earlier than all
+ * others, so that these end too.
+ */
+static const Path GAVE_UP = {-INFINITY, 0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0};
 
 /* The distance between the outer circles of LRL or RLR is known up to so many arc tolerances. */
 #define THREE_ARCS 12.0
@@ -3671,7 +3676,7 @@ static inline WindCandidate first_with_straight(integer u, integer last, SlotPos
         pose = ahead;
         excess = excess_ahead;
     }
-    return none;
+    return (WindCandidate){0.0, slot.side, until_ == INFINITY ? GAVE_UP : NO_PATH};
 }
 
 /* The function for LRL (u = +1) or RLR: `half`, plus half the time less the heading's turn, is the middle arc. */
@@ -3801,7 +3806,7 @@ static inline WindEntry first_in_slot(WindProblem problem, real phase) {
         return entry_at(nothing, phase, miss, scene);
     }
     const WindCandidate found = first_arrival(slot, scene);
-    if (found.path.time == INFINITY) {
+    if (fabs(found.path.time) == INFINITY) {
         return no_entry(code(STATUS_NOT_CONVERGED));
     }
     return arrival_of(found, scene);

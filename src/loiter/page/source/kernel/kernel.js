@@ -4,7 +4,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 40d43d1e635c895306f48688622cd2eeab5d71066ef4a84f3d1919c6cf348fb2
+ * SHA-256 of the source: b044ebf539c32cb4e83f2ff38d545d960e7466f2864237ea4f39d1f48756d92d
  */
 
 // What Python has and JavaScript has not: the first of two that tie, and quotients rounded down. Integers are doubles
@@ -522,6 +522,12 @@ export const ROOT_STEPS = 120;
  * V >= 1.
  */
 export const EDGE = 1000.0;
+
+/* What a search for a word with a straight piece gives up with before anything is found: it is earlier than all
+ * others, so that these end too.
+ */
+/** @type {Path} */
+export const GAVE_UP = { time: -Infinity, word: 0, t1: 0.0, t2: 0.0, t3: 0.0, lam: 1.0, p1: 1.0, p2: 0.0 };
 
 /* The distance between the outer circles of LRL or RLR is known up to so many arc tolerances. */
 export const THREE_ARCS = 12.0;
@@ -4880,7 +4886,7 @@ export function first_with_straight(u, last, begin, slot, scene, until_) {
         pose = ahead;
         excess = excess_ahead;
     }
-    return none;
+    return { phase: 0.0, side: slot.side, path: until_ === Infinity ? GAVE_UP : NO_PATH };
 }
 
 /**
@@ -5030,7 +5036,7 @@ export function first_in_slot(problem, phase) {
         return entry_at(nothing, phase, miss, scene);
     }
     const found = first_arrival(slot, scene);
-    if (found.path.time === Infinity) {
+    if (Math.abs(found.path.time) === Infinity) {
         return no_entry(code(Status.NOT_CONVERGED));
     }
     return arrival_of(found, scene);

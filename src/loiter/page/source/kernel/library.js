@@ -5878,7 +5878,7 @@ return PlacedArrival(turn, arrival, time, div(kernel.rounding(x, y, add(R, time)
 }
 
 function next_time(arrival, time) {
-let _, after, before, begin, crossings;
+let _, after, ahead, before, begin, crossings;
 begin = max(time, mul(kernel.interception(arrival.ends.x, arrival.ends.y, arrival.wx, arrival.wy), sub(1.0, ROUNDING)));
 for (_ of iter(range(MOST_WINDOWS))) {
 crossings = [begin, ...iter(crossing_times(arrival, begin, add(begin, WINDOW))), add(begin, WINDOW)];
@@ -5887,7 +5887,10 @@ if (truth(is_in_time(arrival, mul(0.5, add(before, after))))) {
 return before;
 }
 }
-begin = add(begin, WINDOW);
+[begin, ahead] = iter([add(begin, WINDOW), WINDOW]);
+while ((lt(ahead, math.inf) && truth(has_no_crossing(arrival, begin, add(begin, ahead))))) {
+[begin, ahead] = iter([add(begin, ahead), mul(2.0, ahead)]);
+}
 }
 return math.inf;
 }
@@ -6029,10 +6032,16 @@ return clear;
 const SteadyWind = struct(class extends Values {
 constructor(fence, problem, margin_m) {
 super();
+let largest_m;
 const self = this;
 [self._fence, self._problem, self._margin_m] = iter([fence, problem, margin_m]);
 self._radius_m = problem.aircraft.turn_radius_m;
+self._step_m = pow(mul(mul(8.0, CHORD_ERROR_M), self._radius_m), 0.5);
 [self._wx, self._wy] = iter(problem.relative_wind);
+largest_m = mul(mul(8.0, CHORD_ERROR_M), pow(div(MOST_IN_TURN, math.tau), 2));
+if (gt(self._radius_m, largest_m)) {
+throw errors.OutOfRange(`the turn radius of ${format(self._radius_m, `.4g`)} m is too large for a search for clear entries in wind: it must be at most ${format(largest_m, `.4g`)} m`);
+}
 }
 headings(contacts) {
 let across;
@@ -6087,17 +6096,17 @@ const self = this;
 return Pose2(x, y, add(start.heading, div(mul(control, length), self._radius_m)));
 }
 are_clear(start, words) {
-let clear, counts, ends, flown, good, heading, i, j, k, length, n, r, step, tried, u, width, wind_x, wind_y, x, y;
+let chords, clear, counts, ends, flown, good, heading, i, j, k, length, n, r, tried, u, width, wind_x, wind_y, x, y;
 const self = this;
 [n, r] = iter([words.to.size, self._radius_m]);
 clear = np.ones(n, bool);
 [wind_x, wind_y] = iter([self._wx, self._wy]);
 [x, y, heading] = iter(list(iter(start)).map((value) => add(np.zeros(n), value)));
-step = pow(mul(mul(8.0, CHORD_ERROR_M), r), 0.5);
 for (k of iter(range(3))) {
 [u, length] = iter([item(words.control, [slice(null, null), k]), item(words.length, [slice(null, null), k])]);
-tried = item(bit_and(clear, gt(length, 0.0)).nonzero(), 0);
-counts = np.where(eq(item(u, tried), 0.0), 1, np.ceil(div(item(length, tried), step))).astype(np.intp);
+chords = np.where(eq(u, 0.0), 1, np.ceil(div(length, self._step_m)));
+for (tried of iter(_portions(item(bit_and(clear, gt(length, 0.0)).nonzero(), 0), chords))) {
+counts = item(chords, tried).astype(np.intp);
 i = np.repeat(tried, counts);
 j = sub(np.arange(i.size), np.repeat(sub(np.cumsum(counts), counts), counts));
 width = div(item(length, i), np.repeat(counts, counts));
@@ -6107,6 +6116,7 @@ ends = add(ends, airs__flown(item(x, i), item(y, i), item(heading, i), item(u, i
 }
 good = _clear_chords(self._fence, ends, add(self._margin_m, CHORD_ERROR_M));
 np.logical_and.at(clear, i, good);
+}
 [x, y] = iter(airs__flown(x, y, heading, u, length, r, wind_x, wind_y));
 heading = add(heading, div(mul(u, length), r));
 }
@@ -6484,6 +6494,24 @@ function is_in_time(arrival, time) {
 return is_reachable(arrival.at(time), time);
 }
 
+function has_no_crossing(arrival, begin, end) {
+let dx, dy, ends, enter, fall, first, is_there, last, leave, wx, wy;
+[ends, wx, wy] = iter(arrival);
+for ([first, last] of rows(OUTER_CONTROLS)) {
+[dx, dy] = iter([add(sub(ends.x, mul(last, ends.s)), mul(first, ends.s0)), sub(add(ends.y, mul(last, ends.c)), mul(first, ends.c0))]);
+[enter, leave] = iter(kernel.time_within(dx, dy, wx, wy, (eq(first, last) ? 4.0 : 2.0)));
+if ((le(enter, end) && le(begin, leave) && (eq(first, last) || !(lt(enter, begin) && le(begin, end) && lt(end, leave))))) {
+return false;
+}
+is_there = (eq(first, last) || lt(end, enter) || lt(leave, begin));
+fall = (truth(is_there) ? mul(falls_at(arrival, first, last, begin), sub(end, begin)) : 0.0);
+if ((truth(is_there) && ge(fall, mod(excess_of(arrival, first, last, begin), TWO_PI)))) {
+return false;
+}
+}
+return true;
+}
+
 function* _polygon_curves(zone, clearance_m) {
 let corners, ex, ey, fx, fy, normal, sides, turned, x, y;
 corners = _forbidden_left(zone);
@@ -6576,6 +6604,12 @@ clear = bit_and(clear, gt(mul(circles.sign, sub(outside, circles.radius)).min({ 
 return clear;
 }
 
+function _portions(tried, chords) {
+let portion;
+portion = np.floor(div(np.cumsum(item(chords, tried)), MOST_AT_ONCE));
+return list(iter(sorted(set(tolist_(portion))))).map((k) => item(tried, eq(portion, k)));
+}
+
 const ClearPath = struct(class extends Tuple {
 constructor(pieces, length_m, way) {
 super();
@@ -6607,7 +6641,7 @@ return list(iter(shares)).filter((share) => (le(0.0, share) && le(share, 1.0))).
 }
 
 function path_of_length(ends, wanted, length_tolerance) {
-let found, path, rest, stretch, turns;
+let at_edge, exact, found, path, rest, stretch, turns;
 found = [];
 for (stretch of iter(stretches(ends))) {
 turns = turns_more(stretch, wanted, length_tolerance);
@@ -6620,7 +6654,12 @@ append_(found, replace(path, { t1: add(path.t1, mul(TWO_PI, turns)) }));
 }
 }
 }
-return min(found, { key: ((path) => path.turning), default: null });
+exact = list(iter(found)).filter((path) => truth(is_exact(path, ends, wanted, length_tolerance))).map((path) => path);
+if (!truth(exact)) {
+at_edge = paths_at_edge(ends, wanted);
+exact = list(iter(at_edge)).filter((path) => truth(is_exact(path, ends, wanted, length_tolerance))).map((path) => path);
+}
+return min(or(exact, () => found), { key: ((path) => path.turning), default: null });
 }
 
 function* _segments(problem, path) {
@@ -6629,7 +6668,7 @@ let flown, here, k, letter, now, pieces, r, radius_m, straight, t;
 pieces = [[float(path.first), path.t1], [path.curvature, path.t2], [float(path.last), path.t3]];
 for ([k, t] of rows(pieces)) {
 if (gt(t, ROUNDING)) {
-straight = lt(mul(mul(abs(k), t), t), ROUNDING);
+straight = lt(mul(mul(abs(k), t), max(t, 1.0)), ROUNDING);
 letter = (truth(straight) ? "S" : (gt(k, 0.0) ? "L" : "R"));
 radius_m = ((truth(straight) || eq(abs(k), 1.0)) ? r : div(r, abs(k)));
 flown = segment(here, now, letter, mul(t, r), problem.aircraft, problem.wind, radius_m);
@@ -6640,14 +6679,10 @@ yield flown;
 }
 
 function straight_crossings(arrival, first, last, begin, end) {
-let a, b, dx, dy, ends, excess, found, i, scene, slot, steps, times, values, within, wx, wy;
+let a, b, dx, dy, ends, excess, found, i, steps, times, values, within, wx, wy;
 [ends, wx, wy] = iter(arrival);
-scene = WindScene(0.0, 0.0, ends.c0, ends.s0, 1.0, wx, wy, 0.0);
-slot = slots_Slot(1, 0.0);
 excess = function (time) {
-let x, y;
-[x, y] = iter([sub(ends.x, mul(wx, time)), sub(ends.y, mul(wy, time))]);
-return kernel.excess_at(first, last, SlotPose(time, time, x, y, ends.c, ends.s, 1.0, 0.0, 0.0), slot, scene).value;
+return excess_of(arrival, first, last, time);
 };
 within = [begin, end];
 if (ne(first, last)) {
@@ -6699,6 +6734,27 @@ return list(iter(pairwise(sorted(splits)))).map((one) => iter(one)).filter(([a, 
 
 function is_reachable(ends, wanted) {
 return any(list(iter(stretches(ends))).map((stretch) => ge(turns_more(stretch, wanted, 0.0), 0)));
+}
+
+function falls_at(arrival, first, last, time) {
+let _, dx, dy, ends, q1, q2, straight, wx, wy;
+[ends, wx, wy] = iter([arrival.at(time), arrival.wx, arrival.wy]);
+[dx, dy] = iter([add(sub(ends.x, mul(last, ends.s)), mul(first, ends.s0)), sub(add(ends.y, mul(last, ends.c)), mul(first, ends.c0))]);
+if (eq(first, last)) {
+straight = kernel.length(dx, dy);
+return (gt(straight, 0.0) ? add(1.0, div(add(mul(wx, dx), mul(wy, dy)), straight)) : 2.0);
+}
+[_, q1, q2] = iter(kernel.tangent(first, dx, dy));
+return add(add(1.0, mul(wx, q1)), mul(wy, q2));
+}
+
+function excess_of(arrival, first, last, time) {
+let ends, pose, scene, wx, wy, x, y;
+[ends, wx, wy] = iter(arrival);
+scene = WindScene(0.0, 0.0, ends.c0, ends.s0, 1.0, wx, wy, 0.0);
+[x, y] = iter([sub(ends.x, mul(wx, time)), sub(ends.y, mul(wy, time))]);
+pose = SlotPose(time, time, x, y, ends.c, ends.s, 1.0, 0.0, 0.0);
+return kernel.excess_at(first, last, pose, slots_Slot(1, 0.0), scene).value;
 }
 
 function _forbidden_left(zone) {
@@ -6788,57 +6844,43 @@ return path_at(stretch.family, low);
 }
 
 function with_length(path, ends, wanted) {
-let first, is_exact, k, last, middle, missing, t1, t2, t3, tolerance, turned;
+let exact, first, k, last, middle, missing, t1, t2, t3, tolerance, turned;
 [first, k, last, t1, t2, t3] = iter(path);
 turned = math.atan2(sub(mul(ends.c0, ends.s), mul(ends.s0, ends.c)), add(mul(ends.c0, ends.c), mul(ends.s0, ends.s)));
 missing = kernel.less_whole_turns(sub(sub(sub(turned, mul(first, t1)), mul(k, t2)), mul(last, t3)));
 [tolerance, middle] = iter([mul(0.5, ROUNDING), sub(sub(wanted, t1), t3)]);
-is_exact = (le(abs(sub(path.length, wanted)), mul(tolerance, add(1.0, wanted))) && le(abs(missing), tolerance));
-if ((truth(is_exact) || le(middle, 0.0))) {
+exact = (le(abs(sub(path.length, wanted)), mul(tolerance, add(1.0, wanted))) && le(abs(missing), tolerance));
+if ((truth(exact) || le(middle, 0.0))) {
 return path;
 }
 return replace(path, { curvature: max(-1.0, min(div(add(mul(k, t2), missing), middle), 1.0)), t2: middle });
 }
 
-const WindScene = struct(class extends Tuple {
-constructor(x, y, c, s, R, wx, wy, arc_tolerance) {
-super();
-this.x = x;
-this.y = y;
-this.c = c;
-this.s = s;
-this.R = R;
-this.wx = wx;
-this.wy = wy;
-this.arc_tolerance = arc_tolerance;
-
+function is_exact(path, ends, wanted, length_tolerance) {
+let in_time, rounded;
+rounded = mul(ROUNDING, add(add(add(1.0, abs(ends.x)), abs(ends.y)), wanted));
+in_time = le(abs(sub(path.length, wanted)), mul(mul(0.5, ROUNDING), add(1.0, wanted)));
+return and(and(in_time, () => le(abs(path.curvature), add(1.0, mul(0.5, ROUNDING)))), () => le(miss_of(path, ends), mul(2.0, max(length_tolerance, rounded))));
 }
-}, ["x", "y", "c", "s", "R", "wx", "wy", "arc_tolerance"], 'WindScene');
 
-const slots_Slot = struct(class extends Tuple {
-constructor(side, phase) {
-super();
-this.side = side;
-this.phase = phase;
-
+function* paths_at_edge(ends, wanted) {
+let arc, azimuth, dx, dy, first, last, middle, t1, turned;
+turned = math.atan2(sub(mul(ends.c0, ends.s), mul(ends.s0, ends.c)), add(mul(ends.c0, ends.c), mul(ends.s0, ends.s)));
+for (first of iter([1, -1])) {
+arc = mul(first, turned);
+yield* iter(arc_and_straight(ends, wanted, first, mod(arc, TWO_PI)));
+for (last of iter(within(mul(0.5, sub(wanted, arc)), math.pi, wanted))) {
+yield ThreeArcs(first, 0.0, neg(first), sub(wanted, last), 0.0, last);
 }
-}, ["side", "phase"], 'slots_Slot');
-
-const SlotPose = struct(class extends Tuple {
-constructor(width, time, x, y, c, s, advance, turning, turned) {
-super();
-this.width = width;
-this.time = time;
-this.x = x;
-this.y = y;
-this.c = c;
-this.s = s;
-this.advance = advance;
-this.turning = turning;
-this.turned = turned;
-
+for (middle of iter(within(mul(0.5, sub(wanted, arc)), math.pi, wanted))) {
+[dx, dy] = iter([sub(ends.x, mul(first, sub(ends.s, ends.s0))), add(ends.y, mul(first, sub(ends.c, ends.c0)))]);
+azimuth = math.atan2(sub(mul(ends.c0, dy), mul(ends.s0, dx)), add(mul(ends.c0, dx), mul(ends.s0, dy)));
+for (t1 of iter(within(add(mul(first, azimuth), mul(0.5, middle)), TWO_PI, sub(wanted, middle)))) {
+yield ThreeArcs(first, neg(float(first)), first, t1, middle, sub(sub(wanted, middle), t1));
 }
-}, ["width", "time", "x", "y", "c", "s", "advance", "turning", "turned"], 'SlotPose');
+}
+}
+}
 
 function apart_at(arrival, first, last, time) {
 let c, c0, s, s0, x, y;
@@ -6859,6 +6901,46 @@ b = middle;
 }
 return b;
 }
+
+const WindScene = struct(class extends Tuple {
+constructor(x, y, c, s, R, wx, wy, arc_tolerance) {
+super();
+this.x = x;
+this.y = y;
+this.c = c;
+this.s = s;
+this.R = R;
+this.wx = wx;
+this.wy = wy;
+this.arc_tolerance = arc_tolerance;
+
+}
+}, ["x", "y", "c", "s", "R", "wx", "wy", "arc_tolerance"], 'WindScene');
+
+const SlotPose = struct(class extends Tuple {
+constructor(width, time, x, y, c, s, advance, turning, turned) {
+super();
+this.width = width;
+this.time = time;
+this.x = x;
+this.y = y;
+this.c = c;
+this.s = s;
+this.advance = advance;
+this.turning = turning;
+this.turned = turned;
+
+}
+}, ["width", "time", "x", "y", "c", "s", "advance", "turning", "turned"], 'SlotPose');
+
+const slots_Slot = struct(class extends Tuple {
+constructor(side, phase) {
+super();
+this.side = side;
+this.phase = phase;
+
+}
+}, ["side", "phase"], 'slots_Slot');
 
 function _arc(angle) {
 let within;
@@ -6944,17 +7026,38 @@ t3 = mul(last, sub(sub(math.atan2(ends.c, neg(ends.s)), azimuth), beta));
 return ThreeArcs(first, curvature_at(family, alpha), last, mod(t1, TWO_PI), t2, mod(t3, TWO_PI));
 }
 
-const Family = struct(class extends Tuple {
-constructor(first, last, ends, distance, azimuth) {
-super();
-this.first = first;
-this.last = last;
-this.ends = ends;
-this.distance = distance;
-this.azimuth = azimuth;
-
+function miss_of(path, ends) {
+let c, chord, half, k, s, t, x, y;
+[x, y, c, s] = iter([0.0, 0.0, ends.c0, ends.s0]);
+for ([k, t] of rows([[float(path.first), path.t1], [path.curvature, path.t2], [float(path.last), path.t3]])) {
+half = mul(mul(0.5, k), t);
+chord = (ne(half, 0.0) ? div(mul(t, math.sin(half)), half) : t);
+[c, s] = iter([sub(mul(c, math.cos(half)), mul(s, math.sin(half))), add(mul(s, math.cos(half)), mul(c, math.sin(half)))]);
+[x, y] = iter([add(x, mul(chord, c)), add(y, mul(chord, s))]);
+[c, s] = iter([sub(mul(c, math.cos(half)), mul(s, math.sin(half))), add(mul(s, math.cos(half)), mul(c, math.sin(half)))]);
 }
-}, ["first", "last", "ends", "distance", "azimuth"], 'Family');
+return max(kernel.length(sub(x, ends.x), sub(y, ends.y)), kernel.length(sub(c, ends.c), sub(s, ends.s)));
+}
+
+function* arc_and_straight(ends, wanted, first, arc) {
+let arc_is_first, c, dx, dy, s, t, turns;
+for ([c, s, arc_is_first] of rows([[ends.c, ends.s, true], [ends.c0, ends.s0, false]])) {
+[dx, dy] = iter([sub(ends.x, mul(first, sub(ends.s, ends.s0))), add(ends.y, mul(first, sub(ends.c, ends.c0)))]);
+turns = math.floor(add(div(sub(sub(sub(wanted, arc), mul(dx, c)), mul(dy, s)), TWO_PI), 0.5));
+t = max(0.0, min(add(arc, mul(TWO_PI, turns)), wanted));
+if (truth(arc_is_first)) {
+yield ThreeArcs(first, 0.0, first, t, sub(wanted, t), 0.0);
+} else {
+yield ThreeArcs(first, 0.0, first, 0.0, sub(wanted, t), t);
+}
+}
+}
+
+function within(angle_at, period, most) {
+let least;
+least = sub(angle_at, mul(period, math.floor(div(angle_at, period))));
+return list(iter(range(-1, add(1, int(add(div(TWO_PI, period), 0.5)))))).map((i) => max(0.0, min(add(least, mul(period, i)), most)));
+}
 
 const ThreeArcs = struct(class extends Tuple {
 constructor(first, curvature, last, t1, t2, t3) {
@@ -6976,6 +7079,18 @@ const self = this;
 return add(add(self.t1, mul(abs(self.curvature), self.t2)), self.t3);
 }
 }, ["first", "curvature", "last", "t1", "t2", "t3"], 'ThreeArcs');
+
+const Family = struct(class extends Tuple {
+constructor(first, last, ends, distance, azimuth) {
+super();
+this.first = first;
+this.last = last;
+this.ends = ends;
+this.distance = distance;
+this.azimuth = azimuth;
+
+}
+}, ["first", "last", "ends", "distance", "azimuth"], 'Family');
 
 function without_first_arc(family) {
 return sub(math.atan2(family.ends.c0, neg(family.ends.s0)), family.azimuth);
@@ -7193,12 +7308,13 @@ const UNKNOWN = -1;
 const CLEAR = 1;
 const BATCH = 48;
 const LONGEST = 1000000.0;
-const MOST_WINDOWS = 10000;
+const MOST_WINDOWS = 200;
 const WINDOW = 8.0;
 const JOINS = 48;
 const LINE_STEP = 0.5;
 const MOST_ON_LINE = 24;
 const ARC_STEP_RAD = div(math.pi, 12.0);
+const MOST_IN_TURN = 100000;
 const SIX_CONTROLS = [[1.0, 0.0, 1.0], [-1.0, 0.0, -1.0], [1.0, 0.0, -1.0], [-1.0, 0.0, 1.0], [1.0, -1.0, 1.0], [-1.0, 1.0, -1.0]];
 const SIX = list(iter(SIX_CONTROLS)).map((one) => iter(one)).map(([u, v, w]) => arrays.encode(int(u), int(v), int(w)));
 const lattice_MOST_POSES = 4000;
@@ -7211,6 +7327,7 @@ const DENSE = 32;
 const PIECE_M = 0.001;
 const OUTER_CONTROLS = [[1, 1], [-1, -1], [1, -1], [-1, 1]];
 const ABSENT = -2;
+const MOST_AT_ONCE = 1000000;
 const SAME_LENGTH = 1e-09;
 const WHOLE_TURN = 1e-09;
 const elongation_HALVINGS = 70;
