@@ -14,7 +14,7 @@ import pytest
 
 import loiter
 from loiter.cli.app import main
-from loiter.tables import jobs
+from loiter.tables import files, jobs
 from tables.making import ENVIRONMENT, GIVEN, OPTIONS, killing, poses, small_parts, stopping, write
 
 
@@ -209,3 +209,32 @@ def test_a_table_that_is_damaged_further_on_is_reported(job, capsys):
     assert main(arguments) == 2
     [line] = capsys.readouterr().err.splitlines()
     assert line.startswith("loiter: the job stopped: in.parquet cannot be read, ")
+
+
+@pytest.mark.parametrize("deleted", [1, 2, 9])
+def test_a_job_that_is_killed_while_it_deletes_its_parts_resumes(tmp_path, monkeypatch, deleted):
+    monkeypatch.chdir(tmp_path)
+    write(poses(1000), Path("in.csv"))
+    loiter.tables.run("in.csv", "expected.csv", **GIVEN)
+    below, finish, left = files.Place.below, jobs._finish, []
+
+    def stopping_below(place, name):
+        if left and left.pop() == "last":
+            raise KeyboardInterrupt
+        return below(place, name)
+
+    def stopping_finish(target):
+        left.extend(["last", *["file"] * deleted])
+        finish(target)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(files.Place, "below", stopping_below)
+        patch.setattr(jobs, "_finish", stopping_finish)
+        # Nobody cleans up after a killed process.
+        patch.setattr(jobs, "_clean_up", lambda target: None)
+        with pytest.raises(KeyboardInterrupt):
+            loiter.tables.run("in.csv", "out.csv", **GIVEN)
+    assert len(names("out.csv.parts")) == 12 - deleted
+    loiter.tables.run("in.csv", "out.csv", **GIVEN)
+    assert Path("out.csv").read_bytes() == Path("expected.csv").read_bytes()
+    assert names(".") == ["expected.csv", "in.csv", "out.csv"]

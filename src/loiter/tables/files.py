@@ -112,8 +112,8 @@ class Place:
             Path(self.path).mkdir(exist_ok=True)
 
     def delete_files(self, names: Iterable[str]) -> None:
-        """Delete files of this folder, if they exist."""
-        for name in names:
+        """Delete files of this folder, if they exist, the last name first."""
+        for name in sorted(names, reverse=True):
             with suppress(FileNotFoundError):
                 self.store.delete_file(self.below(name).path)
 

@@ -46,7 +46,8 @@ PART_ROWS_IN_WIND, BATCH_ROWS_IN_WIND = 1 << 16, 1 << 12
 DIGITS = 8
 PART = re.compile(rf"part-(\d+)-([0-9a-f]{{{DIGITS}}})\.parquet")
 
-# The files of a working folder: unfinished ones, parts, CSV files as Parquet and what is known of their lines.
+# The files of a working folder: unfinished ones, parts, CSV files as Parquet and what is known of their lines. The last
+# one says that those before it are there, so that it is written last and deleted first.
 SCRATCH = re.compile(rf"\..*|(part-\d+|input|rejects)-([0-9a-f]{{{DIGITS}}})(-\d+)?\.(parquet|json)")
 
 
