@@ -101,6 +101,9 @@ def race(arguments, target, times):
         assert statuses[0] == 0, statuses
         assert set(statuses) <= {0, 2}, statuses
         assert contents(target) == expected
+        # One that ended later may have left parts.
+        assert ended(forked(arguments)) == 0
+        assert contents(target) == expected
         assert not left_over(target)
 
 

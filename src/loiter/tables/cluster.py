@@ -69,7 +69,12 @@ def check_workers(client: Any, target: Target, source: Source) -> None:
     mark = target.work.below(".mark")
     with create(mark, target.work) as path:
         Path(path).touch()
-    problems = client.run(_worker_problem, mark, target.work, place, place.info.size, __version__, on_error="return")
+    try:
+        problems = client.run(
+            _worker_problem, mark, target.work, place, place.info.size, __version__, on_error="return"
+        )
+    finally:
+        target.work.delete_files([mark.name])
     for worker, problem in problems.items():
         if problem:
             text = problem if isinstance(problem, str) else reason(problem)

@@ -251,15 +251,13 @@ def _work_folder(target: Target) -> Iterator[None]:
 
 
 def _clean_up(target: Target) -> None:
-    """Delete unfinished files, and the working folder if no job can resume from it."""
-    names = [name for name in target.work.files() if SCRATCH.fullmatch(name)]
+    """Delete the working folder, unless a job can resume from it; unfinished files may be those of another process."""
+    names = [name for name in target.work.files() if SCRATCH.fullmatch(name) and name[0] != "."]
     is_complete = target.is_dataset and SUCCESS in target.place.files()
-    if not is_complete and (_count_parts(target) or any(name.startswith("rejects") for name in names)):
-        # The folder stays, since it says that a dataset is not complete.
-        target.work.delete_files(name for name in names if name[0] == ".")
-        return
-    target.work.delete_files(names)
-    target.work.remove_if_empty()
+    # The folder of a job that can resume stays, since it says that a dataset is not complete.
+    if is_complete or not (_count_parts(target) or any(name.startswith("rejects") for name in names)):
+        target.work.delete_files(names)
+        target.work.remove_if_empty()
 
 
 def _count_parts(target: Target) -> int:
@@ -278,10 +276,11 @@ def _finished_parts(target: Target) -> str:
 
 
 def _delete_others(target: Target, digest: str) -> bool:
-    """Delete what another job left in the working folder; returns whether it left anything."""
-    others = [name for name in target.work.files() if SCRATCH.fullmatch(name) and digest not in name]
+    """Delete the finished files that another job left in the working folder; returns whether there were any."""
+    found = [name for name in target.work.files() if SCRATCH.fullmatch(name) and name[0] != "."]
+    others = [name for name in found if digest not in name]
     target.work.delete_files(others)
-    return any(name[0] != "." for name in others)
+    return bool(others)
 
 
 def _made_tables(job: Job) -> list[Place]:
