@@ -14,7 +14,7 @@ from codegen.kinds import Kind, NotTranslated, kind_of_type
 from codegen.statements import comment, wrapped
 from codegen.unit import RING as VALUE_RING
 from codegen.unit import ROOT, Unit, digest
-from loiter.guidance import vehicle
+from loiter.guidance import settings
 from loiter.guidance.entry import entry_planner, law_step, limits, plan, tracking
 from loiter.guidance.entry.law_step import Memory
 from loiter.guidance.entry.limits import Settings
@@ -234,9 +234,9 @@ def law_unit() -> tuple[OnboardUnit, dict[str, str]]:
         "SEARCH": "\n".join(line for kind in search for line in declared(kind, True)),
         "STRUCTURES": "\n".join([*of_law, f"typedef struct {{ {rings} }} loiter_Rings;"]),
         "TYPEDEFS": "typedef loiter_Rings Rings;",
-        "LARGEST_SETTING": unit.literal(vehicle.LARGEST_SETTING),
-        "LEAST_ROLL_RATE": unit.literal(vehicle.LEAST_ROLL_RATE_DEG_S),
-        "LEAST_ROLL_TIME": unit.literal(vehicle.LEAST_ROLL_TIME_S),
+        "LARGEST_SETTING": unit.literal(settings.LARGEST_SETTING),
+        "LEAST_ROLL_RATE": unit.literal(settings.LEAST_ROLL_RATE_DEG_S),
+        "LEAST_ROLL_TIME": unit.literal(settings.LEAST_ROLL_TIME_S),
         "ROLL_TIME": unit.literal(roll.time_s),
         "ROLL_RATE": unit.literal(roll.rate_deg_s),
         "DELAY": unit.literal(law_step.DELAY_S),

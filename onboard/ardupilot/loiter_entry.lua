@@ -2,7 +2,7 @@
 --
 -- Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
 --
--- SHA-256 of the source: 48f94bc4b13881aacd8bd918b9b3f99c04018ed76537a027e64c13f9b6c0c12a
+-- SHA-256 of the source: fb894c07a653822004c5909eef3bd5643fc58674b6531312754b9716a2051ae8
 --
 -- When a switch asks for it, this script flies a plane onto the holding circle around its present target in least
 -- time, and then leaves the circle to ArduPlane: loiter_entry.md. It works by GUIDED_CHANGE_HEADING in GUIDED: the target

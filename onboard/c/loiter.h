@@ -6,7 +6,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: cd04355eb675fcf6d943f93c079ae2b5b04f8370e7b0240a255e57948be0c670
+ * SHA-256 of the source: 2ec5ff08a51330b018d751c08ee9282012adc7c41ee57b3b3e1d40c13d79ba6d
  */
 #ifndef LOITER_ONBOARD_H
 #define LOITER_ONBOARD_H

@@ -3,7 +3,7 @@
  *
  * Generated from the Python of loiter 0.1.0 by `make generate`; do not edit.
  *
- * SHA-256 of the source: 984cc5a103fb537ac5b8fd9379e1c8c6403d318f9815d0fdb4c267bc14b03b97
+ * SHA-256 of the source: 875b507c7117b08ac03bc4202585b8173c801cdbc58b758a94ae3d8669e97ce7
  */
 #ifndef LOITER_IDENTIFICATION_H
 #define LOITER_IDENTIFICATION_H

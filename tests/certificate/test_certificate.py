@@ -436,7 +436,7 @@ def test_no_optimum_is_claimed_for_a_loser():
 
 
 def test_an_unknown_name_is_an_attribute_error():
-    with pytest.raises(AttributeError, match=r"module 'loiter\.verify' has no attribute 'prove'"):
+    with pytest.raises(AttributeError, match=r"module 'loiter\.certificate' has no attribute 'prove'"):
         loiter.certificate.prove  # noqa: B018
 
 

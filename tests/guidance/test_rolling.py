@@ -7,11 +7,9 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from loiter.errors import InvalidArgument
+from loiter.guidance.settings import LARGEST_SETTING, LEAST_ROLL_RATE_DEG_S, LEAST_ROLL_TIME_S
 from loiter.guidance.vehicle import (
     INSTANT_ROLL,
-    LARGEST_SETTING,
-    LEAST_ROLL_RATE_DEG_S,
-    LEAST_ROLL_TIME_S,
     Bank,
     BankState,
     Roll,

@@ -188,7 +188,8 @@ class _Lattice:
         self._search, self._r, self._step = search, radius_m, step
         self._poses, self._length, self._parent, self._control = [start], [0.0], [0], [0.0]
         self._bound = [0.0]
-        self._seen = set(self._cells(self._columns([0])).tolist())
+        # A dictionary, which JavaScript's Map stands for.
+        self._seen = {cell: True for cell in self._cells(self._columns([0])).tolist()}  # noqa: C420
 
     def path(self, most_m: float) -> ClearPath | None:
         """The shortest path found that is shorter than a length."""
@@ -224,7 +225,7 @@ class _Lattice:
         bound, cells = flown + self._search.least(reached), self._cells(reached).tolist()
         for k, j in enumerate(i.tolist()):
             if bound[k] < most_m and cells[k] not in self._seen:
-                self._seen.add(cells[k])
+                self._seen[cells[k]] = True
                 self._poses.append(Pose2(float(reached.x[k]), float(reached.y[k]), float(reached.heading[k])))
                 self._length.append(float(flown[k]))
                 self._parent.append(nodes[j])

@@ -135,7 +135,8 @@ def fleet(
     Raises the errors of `plan`, `InvalidArgument` for no poses or more than 100, a negative separation and a reserve
     outside its range, and `MissingPackage` without SciPy.
 
-    >>> from loiter import Aircraft, Orbit, Pose, fleet
+    >>> from loiter import Aircraft, Orbit, Pose
+    >>> from loiter.fleets import fleet
     >>> poses = [Pose(-400.0, 120.0, 90.0), Pose(300.0, -500.0, 0.0), Pose(0.0, 700.0, 180.0)]
     >>> f = fleet(poses, Orbit(0.0, 0.0, 120.0), Aircraft(18.0, max_bank_deg=35.0))
     >>> [entry.word for entry in f.entries], f.turn.value, round(f.duration_s, 1)

@@ -6,14 +6,10 @@ from dataclasses import dataclass
 from math import atan, cos, degrees, exp, inf, log, radians, sin, sqrt, tan
 from typing import NamedTuple
 
-from loiter.errors import InvalidArgument, as_float, not_negative
+from loiter.errors import InvalidArgument, as_float
 from loiter.guidance.protocol import State
+from loiter.guidance.settings import LEAST_ROLL_RATE_DEG_S, LEAST_ROLL_TIME_S, setting
 from loiter.planning.model import STANDARD_GRAVITY_M_S2
-
-# The settings that a law can be flown with: a bank that follows at once or with a time constant from the first number,
-# seconds, whose square no precision rounds to 0, to the last, the largest of any time or gain, and a least rate of bank
-# and of its command, degrees per second. With others numbers would overflow, or divide by zero.
-LEAST_ROLL_TIME_S, LEAST_ROLL_RATE_DEG_S, LARGEST_SETTING = 1e-6, 0.1, 1000.0
 
 # A turn through a smaller angle, radians, is flown as a straight line: the difference is below the rounding error.
 SMALLEST_TURN = 2.0**-54
@@ -141,14 +137,6 @@ class TurnDelay(NamedTuple):
 
     missing_s: float
     moment_s2: float
-
-
-def setting(argument: str, value: object, unit: str) -> float:
-    """A time or a gain of a law as a float; raises `InvalidArgument` unless it is from 0 to `LARGEST_SETTING`."""
-    x = not_negative(argument, value, unit)
-    if x > LARGEST_SETTING:
-        raise InvalidArgument(argument, f"is {value}: it must be at most {LARGEST_SETTING:g} {unit}")
-    return x
 
 
 @dataclass(frozen=True)

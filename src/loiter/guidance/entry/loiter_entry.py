@@ -12,7 +12,8 @@ from loiter.guidance.estimation.observer import COVERED_S
 from loiter.guidance.estimation.turn_fits import EXPECTED_TURN_RATIO
 from loiter.guidance.estimation.wind_fit import DECLARED_WIND_S
 from loiter.guidance.protocol import PHASES, Command, Phase, State
-from loiter.guidance.vehicle import INSTANT_ROLL, Roll, VehicleEstimates, VehicleModel, fly_as_declared, setting
+from loiter.guidance.settings import setting
+from loiter.guidance.vehicle import INSTANT_ROLL, Roll, VehicleEstimates, VehicleModel, fly_as_declared
 from loiter.planning.model import CALM, Aircraft, Orbit, Turn, Wind, check_held, relative_wind, sign_of
 
 # The names of the codes of a step.

@@ -6178,7 +6178,7 @@ const self = this;
 [self._search, self._r, self._step] = iter([search, radius_m, step]);
 [self._poses, self._length, self._parent, self._control] = iter([[start], [0.0], [0], [0.0]]);
 self._bound = [0.0];
-self._seen = set(tolist_(self._cells(self._columns([0]))));
+self._seen = new Map(list(iter(tolist_(self._cells(self._columns([0]))))).map((cell) => [cell, true]));
 }
 path(most_m) {
 let batch, best, first, heap, k, length, node, nodes, words;
@@ -6220,7 +6220,7 @@ flown = add(item(np.array(list(iter(nodes)).map((node) => item(self._length, nod
 [bound, cells] = iter([add(flown, self._search.least(reached)), tolist_(self._cells(reached))]);
 for ([k, j] of rows(enumerate(tolist_(i)))) {
 if ((lt(item(bound, k), most_m) && !has(item(cells, k), self._seen))) {
-self._seen.add_(item(cells, k));
+set_item(self._seen, item(cells, k), true);
 append_(self._poses, Pose2(float(item(reached.x, k)), float(item(reached.y, k)), float(item(reached.heading, k))));
 append_(self._length, float(item(flown, k)));
 append_(self._parent, item(nodes, j));
