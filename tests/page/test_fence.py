@@ -78,11 +78,7 @@ def assert_shows_the_clear_entry(page):
     assert page.locator("#plan .blocked path").count() > 0
 
 
-# The page's search in wind ends with "pose.east_m is nan"; the plan that is not clear is shown, and said not to be.
-NO_ANSWER = pytest.mark.xfail(reason="in wind the page finds no clear entry: pose.east_m is nan; to be mended")
-
-
-@pytest.mark.parametrize("link", [BLOCKED, pytest.param(WINDY, marks=NO_ANSWER)], ids=["still air", "wind"])
+@pytest.mark.parametrize("link", [BLOCKED, WINDY], ids=["still air", "wind"])
 def test_a_plan_that_is_not_clear_shows_where_it_enters_and_the_clear_entry(opened, link):
     page = opened(link)
     assert_shows_the_clear_entry(page)

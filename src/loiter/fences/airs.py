@@ -228,7 +228,7 @@ class SteadyWind:
         pieces = _paths_to_poses(word, x, y, cos(heading), sin(heading), contacts.angle[to], self._wx, self._wy)
         exists = (pieces[0] < inf).nonzero()[0]
         length = np.stack(pieces, axis=-1)[exists] * r
-        control = np.tile(SIX_CONTROLS, (placed.size, 1))[exists]
+        control = np.array(SIX_CONTROLS)[np.tile(np.arange(len(SIX)), placed.size)[exists]]
         found = Words(to[exists], control, length, np.full(length.shape, r))
         return Words.joined([found, _onto_circle(self._entries(start), contacts, r)])
 

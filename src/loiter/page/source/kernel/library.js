@@ -6068,7 +6068,7 @@ const self = this;
 pieces = arrays.path_to_pose(word, x, y, math.cos(heading), math.sin(heading), item(contacts.angle, to), self._wx, self._wy);
 exists = item(lt(item(pieces, 0), math.inf).nonzero(), 0);
 length = mul(item(np.stack(pieces, { axis: -1 }), exists), r);
-control = item(np.tile(SIX_CONTROLS, [placed.size, 1]), exists);
+control = item(np.array(SIX_CONTROLS), item(np.tile(np.arange(len(SIX)), placed.size), exists));
 found = Words(item(to, exists), control, length, np.full(length.shape, r));
 return Words.joined([found, _onto_circle(self._entries(start), contacts, r)]);
 }
